@@ -1,0 +1,62 @@
+#include "cloud_observation.h"
+
+#include <mrpt/maps/CColouredPointsMap.h>
+#include <mrpt/maps/CPointsMapXYZI.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+
+#include "mrpt_pose.h"
+
+namespace hgmm::importer {
+namespace {
+
+bool isReturn(const Eigen::Vector3d& point) {
+    return point.allFinite() && !point.isZero(0);
+}
+
+template <class PointsMap, class Insert>
+std::size_t fill(const PcdCloud& cloud_frame, const Pose& T_frame_sensor, PointsMap& map,
+                 Insert insert) {
+    const Pose T_sensor_frame = T_frame_sensor.inverse();
+    map.reserve(cloud_frame.points.size());
+    for (const auto& point : cloud_frame.points) {
+        if (!isReturn(point.position)) continue;
+        const Eigen::Vector3d p = T_sensor_frame.R * point.position + T_sensor_frame.t;
+        insert(map, p.cast<float>(), point);
+    }
+    return cloud_frame.points.size() - map.size();
+}
+
+}  // namespace
+
+CloudObservation makeCloudObservation(const PcdCloud& cloud_frame,
+                                      const Pose& T_frame_sensor) {
+    using Eigen::Vector3f;
+    CloudObservation result;
+    result.observation = mrpt::obs::CObservationPointCloud::Create();
+    result.observation->sensorLabel = "LIDAR";
+    result.observation->sensorPose = toMrpt(T_frame_sensor);
+    const auto fillInto = [&](auto map, auto insert) {
+        result.droppedPoints = fill(cloud_frame, T_frame_sensor, *map, insert);
+        result.observation->pointcloud = map;
+    };
+    if (cloud_frame.hasColor)
+        fillInto(mrpt::maps::CColouredPointsMap::Create(),
+                 [](auto& map, const Vector3f& p, const PcdPoint& point) {
+                     map.insertPointRGB(p.x(), p.y(), p.z(), point.r / 255.F,
+                                        point.g / 255.F, point.b / 255.F);
+                 });
+    else if (cloud_frame.hasIntensity)
+        fillInto(mrpt::maps::CPointsMapXYZI::Create(),
+                 [](auto& map, const Vector3f& p, const PcdPoint& point) {
+                     map.insertPointFast(p.x(), p.y(), p.z());
+                     map.setPointIntensity(map.size() - 1, point.intensity);
+                 });
+    else
+        fillInto(mrpt::maps::CSimplePointsMap::Create(),
+                 [](auto& map, const Vector3f& p, const PcdPoint&) {
+                     map.insertPointFast(p.x(), p.y(), p.z());
+                 });
+    return result;
+}
+
+}  // namespace hgmm::importer

@@ -1,0 +1,56 @@
+#pragma once
+#include <hgmm/evaluation/trajectory.h>
+#include <mrpt/io/CFileGZOutputStream.h>
+#include <mrpt/maps/CSimpleMap.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+
+#include "motion_action.h"
+#include "output_file.h"
+#include "sources/source.h"
+
+namespace hgmm::importer {
+
+/// Where an import goes to, and in which form.
+struct RecordingOutputs {
+    std::string rawlog;     ///< gzip-compressed MRPT rawlog
+    std::string poses;      ///< TUM lines: T_world_robot at the observations' time stamps
+    std::string simplemap;  ///< MRPT simple map of the same; empty: none
+    bool actions = false;   ///< pairs of movement and sensory frame instead of observations
+    OdometryNoise noise;    ///< of these movements
+    std::uint64_t seed = 1;
+};
+
+/// Writes scans, in the order of time, to a rawlog, a pose file and, if asked for, a simple
+/// map (which is held in memory until commit). The rawlog needs no files besides it.
+class RecordingWriter {
+ public:
+    /// Throws std::runtime_error if the rawlog cannot be opened.
+    explicit RecordingWriter(const RecordingOutputs& outputs);
+
+    /// Stamps the observation and writes it. Throws std::runtime_error if the time is not
+    /// within
+    /// +-1e10 s (about 300 years) of the epoch, as nanoseconds would not be, or if the disk
+    /// is full.
+    void add(const ImportedScan& scan);
+
+    /// Completes all files; without this none of them appears.
+    void commit();
+
+ private:
+    void writeActionPair(const ImportedScan& scan,
+                         const mrpt::obs::CSensoryFrame::Ptr& frame);
+
+    RecordingOutputs outputs_;
+    OutputFile rawlogFile_;
+    mrpt::io::CFileGZOutputStream rawlog_;
+    evaluation::Trajectory trajectory_;
+    mrpt::maps::CSimpleMap simplemap_;
+    std::mt19937_64 generator_;
+};
+
+}  // namespace hgmm::importer

@@ -1,0 +1,77 @@
+#include <mrpt/opengl/COpenGLScene.h>
+#include <mrpt/opengl/CSetOfObjects.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <stdexcept>
+
+#include "commands.h"
+#include "ellipsoid_mesh.h"
+#include "hgmm/evaluation/reconstruction.h"
+#include "load.h"
+
+namespace maptool {
+namespace {
+
+constexpr double kSigmas = 2.0;
+
+/// Points of every component, the same number of each.
+void appendComponentPoints(const hgmm::Gaussian<3>& component_local,
+                           const Eigen::Vector3d& origin_map, const ExportOptions& options,
+                           std::uint32_t id, Ply& ply) {
+    hgmm::Mixture<3> alone;
+    alone.pushBack(component_local);
+    const hgmm::evaluation::Points points_map = hgmm::evaluation::sampleSurface(
+        alone, origin_map, options.pointsPerComponent, options.seed + id);
+    ply.vertices.insert(ply.vertices.end(), points_map.begin(), points_map.end());
+    ply.colours.resize(ply.vertices.size(), colourOf(id));
+    ply.components.resize(ply.vertices.size(), id);
+}
+
+void exportPly(const hgmm::Map& map, const ExportOptions& options) {
+    const hgmm::Mixture<3>& mixture = levelOf(map, options.level, options.mapFile);
+    Ply ply;
+    for (std::size_t i = 0; i < mixture.size(); ++i) {
+        const auto id = static_cast<std::uint32_t>(i);
+        if (options.pointsPerComponent > 0)
+            appendComponentPoints(mixture[i], map.origin(), options, id, ply);
+        else
+            appendEllipsoid(mixture[i], map.origin(), kSigmas, id, ply);
+    }
+    writePly(options.output, ply);
+}
+
+void exportScene(mrpt::maps::CHGMMOccupancyMap map, const ExportOptions& options) {
+    const hgmm::Mixture<3>& mixture = levelOf(map.model(), options.level, options.mapFile);
+    map.renderOptions.level = static_cast<int>(options.level);
+    map.renderOptions.sigmas = kSigmas;
+    map.renderOptions.maxEllipsoids = static_cast<int>(
+        std::min<std::size_t>(mixture.size(), std::numeric_limits<int>::max()));
+    map.genericMapParams.enableSaveAs3DObject = true;
+    auto objects = mrpt::opengl::CSetOfObjects::Create();
+    map.getVisualizationInto(*objects);
+    mrpt::opengl::COpenGLScene scene;
+    scene.insert(objects);
+
+    const std::string partial = options.output + ".partial";
+    std::error_code error;
+    const bool saved = scene.saveToFile(partial);
+    if (saved) std::filesystem::rename(partial, options.output, error);
+    if (!saved || error) {
+        std::filesystem::remove(partial, error);
+        throw std::runtime_error(options.output + ": cannot be written");
+    }
+}
+
+}  // namespace
+
+void exportMap(const ExportOptions& options) {
+    const mrpt::maps::CHGMMOccupancyMap map = loadMap(options.mapFile);
+    if (options.format == "ply")
+        exportPly(map.model(), options);
+    else
+        exportScene(map, options);
+}
+
+}  // namespace maptool

@@ -1,0 +1,56 @@
+#include <cstdio>
+#include <limits>
+
+#include "commands.h"
+#include "hgmm/evaluation/memory.h"
+#include "hgmm/map_params.h"
+#include "load.h"
+
+namespace maptool {
+namespace {
+
+/// Prints the box around all components, each reaching two sigma along every axis.
+void printExtent(const hgmm::Map& map) {
+    const hgmm::Mixture<3>& base = map.mixture();
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::vector<float>& variance =
+            base.covariance[hgmm::packedIndex(3, axis, axis)];
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        for (std::size_t i = 0; i < base.size(); ++i) {
+            const double reach = 2.0 * std::sqrt(static_cast<double>(variance[i]));
+            low = std::min(low, static_cast<double>(base.mean[axis][i]) - reach);
+            high = std::max(high, static_cast<double>(base.mean[axis][i]) + reach);
+        }
+        std::printf("extent %c    %.2f to %.2f m\n", "xyz"[axis], map.origin()[axis] + low,
+                    map.origin()[axis] + high);
+    }
+}
+
+}  // namespace
+
+void info(const std::string& mapFile) {
+    const mrpt::maps::CHGMMOccupancyMap loaded = loadMap(mapFile);
+    const hgmm::Map& map = loaded.model();
+    const hgmm::evaluation::Memory memory = hgmm::evaluation::memoryOf(map);
+    std::printf("%s\n", mapFile.c_str());
+    std::printf("serialised  %zu bytes, %zu bytes in memory\n", memory.serialized_bytes,
+                memory.live_bytes);
+    if (map.empty()) {
+        std::printf("the map is empty\n");
+    } else {
+        std::printf("origin      %.0f %.0f %.0f m\n", map.origin().x(), map.origin().y(),
+                    map.origin().z());
+        printExtent(map);
+        std::printf("points      %.0f\n", map.mixture().totalSupport());
+        std::printf("level  components       bytes\n");
+        for (std::size_t level = 0; level < map.levelCount(); ++level)
+            std::printf("%5zu  %10zu  %10zu\n", level, map.mixture(level).size(),
+                        hgmm::evaluation::parameterBytes(map.mixture(level)));
+    }
+    std::printf("options\n");
+    hgmm::forEachField(map.params(), [](const char* name, auto value) {
+        std::printf("  %-16s %g\n", name, static_cast<double>(value));
+    });
+}
+
+}  // namespace maptool

@@ -1,0 +1,17 @@
+#pragma once
+#include <mrpt/maps/CHGMMOccupancyMap.h>
+
+#include <cstddef>
+#include <string>
+
+namespace maptool {
+
+/// Reads a saved map. Throws std::runtime_error naming the file.
+mrpt::maps::CHGMMOccupancyMap loadMap(const std::string& file);
+
+/// A level of a map that must not be empty. Throws std::runtime_error saying which levels
+/// the map has, or that it is empty.
+const hgmm::Mixture<3>& levelOf(const hgmm::Map& map, std::size_t level,
+                                const std::string& file);
+
+}  // namespace maptool

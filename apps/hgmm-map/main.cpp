@@ -1,0 +1,62 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "commands.h"
+
+namespace {
+
+enum ExitCode { kDone = 0, kBadInput = 1, kWrongUsage = 2 };
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{"Looks into saved Gaussian mixture maps (.hgmm) and converts them."};
+    app.require_subcommand(1);
+
+    std::string infoFile;
+    CLI::App* info = app.add_subcommand("info", "Levels, size, extent, origin and options");
+    info->add_option("MAP", infoFile, "Saved map")->required();
+
+    maptool::SampleOptions sampling;
+    CLI::App* sample = app.add_subcommand("sample", "Draw points from the map into a .ply");
+    sample->add_option("MAP", sampling.mapFile, "Saved map")->required();
+    sample->add_option("-n", sampling.points, "Number of points")->required();
+    sample->add_option("--seed", sampling.seed, "Seed of the random numbers");
+    sample->add_option("--level", sampling.level, "Level of the hierarchy, 0 = finest");
+    sample->add_option("-o", sampling.output, "Output file")->required();
+
+    maptool::ExportOptions exporting;
+    CLI::App* exports = app.add_subcommand("export", "Write the map in another format");
+    exports->add_option("MAP", exporting.mapFile, "Saved map")->required();
+    exports
+        ->add_option("--format", exporting.format,
+                     "ply: ellipsoids or points; 3Dscene: MRPT")
+        ->required()
+        ->check(CLI::IsMember({"ply", "3Dscene"}));
+    exports->add_option("--level", exporting.level, "Level of the hierarchy, 0 = finest");
+    auto* points = exports->add_option(
+        "--points-per-component", exporting.pointsPerComponent,
+        "ply: so many points of each component instead of its ellipsoid");
+    points->check(CLI::PositiveNumber);
+    exports->add_option("--seed", exporting.seed, "Seed of the points");
+    exports->add_option("-o", exporting.output, "Output file")->required();
+
+    try {
+        app.parse(argc, argv);
+        if (exporting.format == "3Dscene" && points->count() > 0)
+            throw CLI::ValidationError("--points-per-component",
+                                       "is for --format ply only");
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) == 0 ? kDone : kWrongUsage;
+    }
+    try {
+        if (*info) maptool::info(infoFile);
+        if (*sample) maptool::sample(sampling);
+        if (*exports) maptool::exportMap(exporting);
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "hgmm-map: %s\n", e.what());
+        return kBadInput;
+    }
+    return kDone;
+}

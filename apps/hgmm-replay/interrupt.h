@@ -1,0 +1,11 @@
+#pragma once
+
+namespace replay {
+
+/// From now on the first Ctrl-C asks the run to finish early; a second one kills it.
+void catchInterrupts();
+
+/// Whether Ctrl-C was pressed.
+bool interrupted();
+
+}  // namespace replay

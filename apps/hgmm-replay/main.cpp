@@ -1,0 +1,136 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <stdexcept>
+
+#include "fidelity_study.h"
+#include "hgmm/evaluation/metrics_json.h"
+#include "interrupt.h"
+#include "map_setup.h"
+#include "options.h"
+#include "replay_scans.h"
+#include "table.h"
+#include "threads.h"
+
+namespace {
+
+using namespace replay;
+using namespace hgmm::evaluation;
+
+enum ExitCode { kDone = 0, kBadInput = 1, kWrongUsage = 2, kInterrupted = 130 };
+
+constexpr const char* kStudies =
+    "fig3.2  estimated size of each scan's mixture, and its divergence as it is reduced\n";
+
+void defineOptions(CLI::App& app, Options& o, bool& listStudies) {
+    app.add_option("LOG", o.log, "Recording to replay (.rawlog)");
+    app.add_option("--config", o.config,
+                   "Map options: an MRPT .ini with hgmmMap_count = 1");
+    app.add_option("--poses", o.poses,
+                   "Poses of the robot, TUM lines: t x y z qx qy qz qw");
+    app.add_option(
+        "--split", o.split.every,
+        "Scans i with i % K == K/2 test the map instead of building it (0 = none)");
+    app.add_option("--subsample", o.split.subsample,
+                   "Fraction of the points of each mapping scan that is used");
+    app.add_option(
+        "--holdout-points", o.split.holdoutPoints,
+        "Fraction of the points of each mapping scan that tests the map instead");
+    app.add_option("--report", o.reportFolder,
+                   "Folder for metrics.json and figures of studies");
+    app.add_option("--save-map", o.saveMap, "File for the map (.hgmm)");
+    app.add_option("--from", o.from, "First scan to use");
+    app.add_option("--to", o.to, "Last scan to use");
+    app.add_option("--threads", o.threads, "Threads (0 = one per core)")
+        ->check(CLI::Range(0, 1024));
+    app.add_option("--seed", o.split.seed, "Seed of all random choices");
+    app.add_flag("--quiet", o.quiet, "No progress");
+    app.add_option("--study", o.study, "Make a study instead of a map (--list-studies)")
+        ->check(CLI::IsMember({"fig3.2"}));
+    app.add_flag("--list-studies", listStudies, "List the studies");
+}
+
+void checkUsage(const Options& o) {
+    if (o.log.empty()) throw CLI::RequiredError("LOG");
+    if (o.from > o.to) throw CLI::ValidationError("--from", "lies beyond --to");
+    try {
+        o.split.validate();
+    } catch (const std::invalid_argument& e) {
+        throw CLI::ValidationError(e.what());
+    }
+}
+
+/// Files that could not be written at the end of a long run had better be known at its
+/// start.
+void prepareOutputs(const Options& o) {
+    std::error_code error;
+    if (o.reportFolder) std::filesystem::create_directories(*o.reportFolder, error);
+    if (o.reportFolder && !std::filesystem::is_directory(*o.reportFolder))
+        throw std::runtime_error(*o.reportFolder + ": the report folder cannot be made");
+    const auto folder = std::filesystem::path(o.saveMap.value_or("")).parent_path();
+    if (!folder.empty() && !std::filesystem::is_directory(folder))
+        throw std::runtime_error(*o.saveMap + ": there is no folder " + folder.string());
+}
+
+ExitCode makeMapAndReport(Recording& recording, const Options& options) {
+    const Replayed replayed = replayScans(recording, makeMap(options.config), options);
+    if (replayed.run.scansMapped == 0)
+        throw std::runtime_error(options.log + ": no scan was left to build a map from");
+    MapFigures figures =
+        evaluateMap(replayed.map->model(), replayed.testPoints, options.split.seed);
+    figures.name = "hgmm";
+    figures.className = replayed.map->GetRuntimeClass()->className;
+    figures.scanTime_ms = summariseTimes(replayed.insert_ms);
+    std::fputs(table(replayed.run, figures, summariseTimes(replayed.conversion_ms)).c_str(),
+               stdout);
+    if (options.reportFolder)
+        writeTextFile(*options.reportFolder + "/metrics.json",
+                      metricsJson(replayed.run, {figures}).dump(2) + "\n");
+    if (options.saveMap) replayed.map->saveToFile(*options.saveMap);
+    if (!replayed.run.interrupted) return kDone;
+    std::fprintf(stderr,
+                 "interrupted: all of the above is for the first %zu of %zu scans\n",
+                 replayed.run.scansMapped + replayed.run.scansTested, recording.size());
+    return kInterrupted;
+}
+
+ExitCode run(Options& options) {
+    prepareOutputs(options);
+    options.threads = useThreads(options.threads);
+    RecordingOptions recordingOptions{options.poses, options.from, options.to,
+                                      !options.study.has_value()};
+    Recording recording(options.log, recordingOptions);
+    if (!recording.damage().empty())
+        std::fprintf(stderr, "warning: %s\n", recording.damage().c_str());
+    catchInterrupts();
+    if (!options.study) return makeMapAndReport(recording, options);
+    fidelityStudy(recording, makeMap(options.config)->insertionOptions.params, options);
+    return interrupted() ? kInterrupted : kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{
+        "Replays a recording into a hierarchical Gaussian mixture map and evaluates it."};
+    Options options;
+    bool listStudies = false;
+    defineOptions(app, options, listStudies);
+    try {
+        app.parse(argc, argv);
+        if (listStudies) {
+            std::fputs(kStudies, stdout);
+            return kDone;
+        }
+        checkUsage(options);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) == 0 ? kDone : kWrongUsage;
+    }
+    try {
+        return run(options);
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "hgmm-replay: %s\n", e.what());
+        return kBadInput;
+    }
+}

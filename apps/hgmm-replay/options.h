@@ -1,0 +1,26 @@
+#pragma once
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "hgmm/evaluation/split.h"
+
+namespace replay {
+
+/// The command line.
+struct Options {
+    std::string log;
+    std::optional<std::string> config;
+    std::optional<std::string> poses;
+    std::optional<std::string> reportFolder;
+    std::optional<std::string> saveMap;
+    std::optional<std::string> study;
+    hgmm::evaluation::SplitParams split;
+    std::size_t from = 0;
+    std::size_t to = std::numeric_limits<std::size_t>::max();
+    int threads = 0;  ///< 0 = one per core
+    bool quiet = false;
+};
+
+}  // namespace replay

@@ -1,0 +1,48 @@
+#include "progress.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <string>
+
+namespace replay {
+
+Progress::Progress(std::size_t total, bool quiet)
+    : total_(total), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress() {
+    if (!quiet_ && terminal_ && done_ > 0) std::fputc('\n', stderr);
+}
+
+void Progress::advance() {
+    ++done_;
+    if (quiet_) return;
+    const Clock::time_point now = Clock::now();
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    const double scansPerSecond =
+        static_cast<double>(done_) / (seconds > 0 ? seconds : 1e-9);
+    if (terminal_) {
+        if (done_ < total_ && now - drawn_ < std::chrono::milliseconds(100)) return;
+        drawn_ = now;
+        drawBar(scansPerSecond);
+    } else if (done_ * 10 / total_ != (done_ - 1) * 10 / total_) {
+        printLine(scansPerSecond);
+    }
+}
+
+void Progress::drawBar(double scansPerSecond) const {
+    constexpr std::size_t width = 30;
+    const std::size_t filled = width * done_ / total_;
+    const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
+    std::fprintf(stderr, "\r[%s] %zu/%zu scans, %.1f scans/s, ETA %.0f s \033[K",
+                 bar.c_str(), done_, total_, scansPerSecond,
+                 static_cast<double>(total_ - done_) / scansPerSecond);
+    std::fflush(stderr);
+}
+
+void Progress::printLine(double scansPerSecond) const {
+    std::fprintf(stderr, "%zu/%zu scans, %.1f scans/s, ETA %.0f s\n", done_, total_,
+                 scansPerSecond, static_cast<double>(total_ - done_) / scansPerSecond);
+}
+
+}  // namespace replay

@@ -1,0 +1,33 @@
+#pragma once
+#include <chrono>
+#include <cstddef>
+
+namespace replay {
+
+/// Tells on stderr how far a run is: a bar with scans/s and the time left on a terminal,
+/// else one plain line for each tenth.
+class Progress {
+ public:
+    Progress(std::size_t total, bool quiet);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// One more scan is done.
+    void advance();
+
+ private:
+    using Clock = std::chrono::steady_clock;
+
+    void drawBar(double scansPerSecond) const;
+    void printLine(double scansPerSecond) const;
+
+    std::size_t total_;
+    std::size_t done_ = 0;
+    bool quiet_;
+    bool terminal_;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point drawn_{};
+};
+
+}  // namespace replay

@@ -1,0 +1,36 @@
+# Compiler settings that every target of this project shares.
+
+# Applies language level, warnings and sanitizers to one target.
+function(hgmm_target TARGET)
+    target_compile_features(${TARGET} PUBLIC cxx_std_17)
+    target_compile_options(${TARGET} PRIVATE
+        -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wno-psabi
+        $<$<BOOL:${HGMM_WARNINGS_AS_ERRORS}>:-Werror>)
+    if(HGMM_SANITIZE)
+        target_compile_options(${TARGET} PUBLIC
+            -fsanitize=address,undefined -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
+        target_link_options(${TARGET} PUBLIC -fsanitize=address,undefined)
+    endif()
+endfunction()
+
+# Headers of a library: from its folder when built here, from the prefix when installed.
+function(hgmm_library_includes TARGET)
+    target_include_directories(${TARGET} PUBLIC
+        $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+        $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    set_target_properties(${TARGET} PROPERTIES
+        VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+    install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endfunction()
+
+# A GoogleTest program, each of its cases a ctest case.
+# hgmm_test(NAME SOURCES a.cpp ... LIBRARIES lib ... [LABELS ...])
+function(hgmm_test NAME)
+    cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+    add_executable(${NAME} ${ARG_SOURCES})
+    hgmm_target(${NAME})
+    target_link_libraries(${NAME} PRIVATE ${ARG_LIBRARIES} GTest::gtest GTest::gtest_main)
+    set_target_properties(${NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+    gtest_discover_tests(${NAME} DISCOVERY_MODE PRE_TEST
+        PROPERTIES LABELS "${ARG_LABELS}" SKIP_REGULAR_EXPRESSION "SKIPPED")
+endfunction()

@@ -1,0 +1,17 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "hgmm/evaluation/figures.h"
+
+namespace hgmm::evaluation {
+
+/// The figures of a run as metrics.json holds them: `dataset`, `protocol` and one entry of
+/// `maps` per map. What was not measured is left out.
+nlohmann::ordered_json metricsJson(const Run& run, const std::vector<MapFigures>& maps);
+
+/// Writes a text file whole or not at all. Throws std::runtime_error naming the file.
+void writeTextFile(const std::string& file, const std::string& text);
+
+}  // namespace hgmm::evaluation

@@ -1,0 +1,47 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hgmm/scan.h"
+
+namespace hgmm::evaluation {
+
+/// Which scans and points build the map and which test it (protocol, step 1).
+struct SplitParams {
+    int every = 0;  ///< K: scan i is a test scan if i % K == K / 2; 0 = none [count]
+    double subsample =
+        1.0;  ///< fraction of each mapping scan's points that is kept, (0, 1]
+    double holdoutPoints =
+        0.0;                 ///< fraction of each mapping scan's points held out, [0, 1)
+    std::uint64_t seed = 1;  ///< of every random choice
+
+    /// Throws std::invalid_argument naming the field.
+    void validate() const;
+
+    /// Whether the whole scan is kept from the map.
+    bool isTestScan(std::size_t scanIndex) const;
+};
+
+/// What the random numbers of a scan are drawn for: each use has a stream of its own, so
+/// that one choice never shifts another.
+enum class Draw : std::uint64_t { holdout = 1, subsample = 2, queries = 3, reference = 4 };
+
+/// Chooses `n` of `total` indices, rising, each subset equally likely; all of them if
+/// n >= total. The same (seed, scanIndex, draw) gives the same choice.
+std::vector<std::size_t> chooseIndices(std::size_t total, std::size_t n, std::uint64_t seed,
+                                       std::size_t scanIndex, Draw draw);
+
+/// The points of a scan (and their channels) named by `indices`, in that order.
+Scan selectPoints(const Scan& scan, const std::vector<std::size_t>& indices);
+
+/// A mapping scan, taken apart.
+struct SplitScan {
+    Scan mapping;  ///< what the map may see
+    Scan heldOut;  ///< test points; empty without holdoutPoints
+};
+
+/// Holds out points first, then thins what is left. For mapping scans.
+SplitScan splitPoints(Scan scan, std::size_t scanIndex, const SplitParams& params);
+
+}  // namespace hgmm::evaluation

@@ -1,0 +1,148 @@
+#include "hgmm/evaluation/svg_plot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <stdexcept>
+
+namespace hgmm::evaluation {
+namespace {
+
+constexpr double kWidth = 720, kHeight = 440;
+constexpr double kLeft = 80, kRight = 20, kTop = 40, kBottom = 60;  // margins
+constexpr const char* kColours[] = {"#0b5fa5", "#c4421a", "#2e7d32", "#6a3d9a", "#8d6e00"};
+
+std::string number(double v) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", v);
+    return text;
+}
+
+std::string escaped(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else
+            out += c;
+    }
+    return out;
+}
+
+std::string textAt(double x, double y, const char* anchor, const std::string& text,
+                   const std::string& more = "") {
+    return "<text x='" + number(x) + "' y='" + number(y) + "' text-anchor='" + anchor +
+           "' " + more + ">" + escaped(text) + "</text>\n";
+}
+
+/// One axis: its data range and where that lies on the page.
+struct Axis {
+    double low, high;            // data
+    double pixelLow, pixelHigh;  // page
+
+    double toPixel(double v) const {
+        return pixelLow + (v - low) / (high - low) * (pixelHigh - pixelLow);
+    }
+
+    /// Four to ten round values.
+    std::vector<double> ticks() const {
+        const double raw = (high - low) / 5.0;
+        const double decade = std::pow(10.0, std::floor(std::log10(raw)));
+        double step = 10.0 * decade;
+        for (const double factor : {5.0, 2.0, 1.0})
+            if (factor * decade >= raw) step = factor * decade;
+        std::vector<double> values;
+        for (double k = std::ceil(low / step); k * step <= high + 1e-9 * step; ++k)
+            values.push_back(k * step);
+        return values;
+    }
+};
+
+Axis fitAxis(const Plot& plot, bool vertical) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Curve& curve : plot.curves) {
+        for (const auto& [x, y] : curve.points) {
+            const double v = vertical ? y : x;
+            if (!std::isfinite(v))
+                throw std::invalid_argument("toSvg: not finite: " + curve.label);
+            low = std::min(low, v);
+            high = std::max(high, v);
+        }
+    }
+    if (low > high) throw std::invalid_argument("toSvg: there is nothing to plot");
+    const double margin =
+        high > low ? 0.03 * (high - low) : std::max(1.0, 0.1 * std::abs(low));
+    low -= margin;
+    high += margin;
+    if (vertical) return {low, high, kHeight - kBottom, kTop};
+    return {low, high, kLeft, kWidth - kRight};
+}
+
+std::string drawAxes(const Plot& plot, const Axis& x, const Axis& y) {
+    std::string svg;
+    const double bottom = kHeight - kBottom, right = kWidth - kRight;
+    for (const double v : x.ticks()) {
+        const std::string at = number(x.toPixel(v));
+        svg += "<line x1='" + at + "' x2='" + at + "' y1='" + number(kTop) + "' y2='" +
+               number(bottom) + "' stroke='#dddddd'/>\n";
+        svg += textAt(x.toPixel(v), bottom + 18, "middle", number(v));
+    }
+    for (const double v : y.ticks()) {
+        const std::string at = number(y.toPixel(v));
+        svg += "<line y1='" + at + "' y2='" + at + "' x1='" + number(kLeft) + "' x2='" +
+               number(right) + "' stroke='#dddddd'/>\n";
+        svg += textAt(kLeft - 8, y.toPixel(v) + 4, "end", number(v));
+    }
+    svg += "<rect x='" + number(kLeft) + "' y='" + number(kTop) + "' width='" +
+           number(right - kLeft) + "' height='" + number(bottom - kTop) +
+           "' fill='none' stroke='#444444'/>\n";
+    svg += textAt(0.5 * (kLeft + right), kHeight - 16, "middle", plot.xLabel);
+    svg += textAt(
+        0, 0, "middle", plot.yLabel,
+        "transform='translate(20 " + number(0.5 * (kTop + bottom)) + ") rotate(-90)'");
+    return svg +
+           textAt(0.5 * (kLeft + right), 24, "middle", plot.title, "font-weight='bold'");
+}
+
+std::string drawCurve(const Curve& curve, const Axis& x, const Axis& y,
+                      const std::string& colour) {
+    std::string svg = "<polyline fill='none' stroke='" + colour + "' stroke-width='" +
+                      (curve.emphasised ? "3" : "1") + "' stroke-opacity='" +
+                      (curve.emphasised ? "1" : "0.6") + "' points='";
+    for (const auto& [px, py] : curve.points)
+        svg += number(x.toPixel(px)) + "," + number(y.toPixel(py)) + " ";
+    return svg + "'/>\n";
+}
+
+}  // namespace
+
+std::string toSvg(const Plot& plot) {
+    const Axis x = fitAxis(plot, false), y = fitAxis(plot, true);
+    std::string svg =
+        "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 " + number(kWidth) + " " +
+        number(kHeight) + "' font-family='sans-serif' font-size='13'>\n" +
+        "<rect width='100%' height='100%' fill='white'/>\n" + drawAxes(plot, x, y);
+    // Unlabelled curves are a backdrop, in grey; labelled ones get a colour and a legend
+    // each.
+    for (const bool emphasised : {false, true}) {
+        std::size_t labelled = 0;
+        for (const Curve& curve : plot.curves) {
+            const std::size_t place = labelled;
+            labelled += curve.label.empty() ? 0 : 1;
+            if (curve.emphasised != emphasised) continue;
+            const std::string colour =
+                curve.label.empty() ? "#999999" : kColours[place % std::size(kColours)];
+            svg += drawCurve(curve, x, y, colour);
+            if (!curve.label.empty())
+                svg += textAt(kWidth - kRight - 10,
+                              kTop + 20 + 18 * static_cast<double>(place), "end",
+                              curve.label, "fill='" + colour + "'");
+        }
+    }
+    return svg + "</svg>\n";
+}
+
+}  // namespace hgmm::evaluation

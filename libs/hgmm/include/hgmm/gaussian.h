@@ -1,0 +1,102 @@
+#pragma once
+#include <array>
+#include <cmath>
+
+#include "hgmm/mixture.h"
+
+namespace hgmm {
+
+constexpr double kLogTwoPi = 1.8378770664093454836;
+
+/// A Gaussian made ready for evaluation: its mean and the inverse W of its Cholesky factor, so
+/// that the squared Mahalanobis distance is |W (x - mean)|^2 and neither an inverse nor a
+/// determinant is formed (Sigma = L L^T, W = L^-1, log|Sigma|^(-1/2) = sum log W_kk).
+template <int D, typename Scalar = double>
+class WhitenedGaussian {
+   public:
+    WhitenedGaussian() = default;
+
+    /// Factors a covariance. One that is not positive definite (rounding, or degenerate input)
+    /// has its pivots raised to `minVariance`, so that the result is always finite.
+    explicit WhitenedGaussian(const Gaussian<D>& g, double minVariance = 1e-12);
+
+    /// (x - mu)^T Sigma^-1 (x - mu), >= 0.
+    Scalar squaredMahalanobis(const Scalar* x) const {
+        Scalar sum = 0;
+        for (int row = 0; row < D; ++row) {
+            Scalar whitened = 0;
+            for (int col = 0; col <= row; ++col)
+                whitened += factor_[lower(row, col)] * (x[col] - mean_[col]);
+            sum += whitened * whitened;
+        }
+        return sum;
+    }
+
+    /// log N(x | mu, Sigma) [nat].
+    Scalar logPdf(const Scalar* x) const {
+        return logNormalizer_ - Scalar(0.5) * squaredMahalanobis(x);
+    }
+
+    /// trace(Sigma^-1 C) for a symmetric C.
+    template <typename Derived>
+    Scalar traceOfPrecisionTimes(const Eigen::MatrixBase<Derived>& C) const {
+        Scalar trace = 0;
+        for (int row = 0; row < D; ++row)
+            for (int a = 0; a <= row; ++a)
+                for (int b = 0; b <= row; ++b)
+                    trace += factor_[lower(row, a)] * factor_[lower(row, b)] * Scalar(C(a, b));
+        return trace;
+    }
+
+    /// log of the density at the mean [nat].
+    Scalar logNormalizer() const { return logNormalizer_; }
+    /// log |Sigma| [nat].
+    Scalar logDeterminant() const { return Scalar(-2) * logNormalizer_ - Scalar(D * kLogTwoPi); }
+    Scalar mean(int axis) const { return mean_[axis]; }
+    /// Entry of W, row >= col.
+    Scalar factor(int row, int col) const { return factor_[lower(row, col)]; }
+
+   private:
+    static constexpr int lower(int row, int col) { return row * (row + 1) / 2 + col; }
+
+    std::array<Scalar, D> mean_{};
+    std::array<Scalar, packedSize(D)> factor_{};
+    Scalar logNormalizer_ = 0;
+};
+
+template <int D, typename Scalar>
+WhitenedGaussian<D, Scalar>::WhitenedGaussian(const Gaussian<D>& g, double minVariance) {
+    double L[D][D] = {};
+    double logDet = 0;
+    for (int i = 0; i < D; ++i) {
+        for (int j = 0; j <= i; ++j) {
+            double s = g.covariance(i, j);
+            for (int k = 0; k < j; ++k) s -= L[i][k] * L[j][k];
+            if (i == j) {
+                L[i][i] = std::sqrt(s > minVariance ? s : minVariance);
+                logDet += 2.0 * std::log(L[i][i]);
+            } else {
+                L[i][j] = s / L[j][j];
+            }
+        }
+    }
+    for (int col = 0; col < D; ++col) {
+        double column[D] = {};
+        for (int row = col; row < D; ++row) {
+            double s = row == col ? 1.0 : 0.0;
+            for (int k = col; k < row; ++k) s -= L[row][k] * column[k];
+            column[row] = s / L[row][row];
+            factor_[lower(row, col)] = static_cast<Scalar>(column[row]);
+        }
+    }
+    for (int i = 0; i < D; ++i) mean_[i] = static_cast<Scalar>(g.mean[i]);
+    logNormalizer_ = static_cast<Scalar>(-0.5 * (D * kLogTwoPi + logDet));
+}
+
+/// log(exp(a) + exp(b)) without overflow; -infinity stands for zero.
+inline double logAddExp(double a, double b) {
+    if (a < b) std::swap(a, b);
+    return std::isinf(a) ? a : a + std::log1p(std::exp(b - a));
+}
+
+}  // namespace hgmm

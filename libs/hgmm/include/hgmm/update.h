@@ -1,0 +1,16 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "hgmm/component_index.h"
+#include "hgmm/novelty.h"
+
+namespace hgmm {
+
+/// Adds known samples to the components that explain them: thesis eq. (3.19)-(3.22), with
+/// responsibilities (3.8) over each sample's neighbourhood. Sums are taken about each
+/// component's old mean, in sample order. Returns the changed components, rising.
+std::vector<std::uint32_t> updateKnown(Mixture<3>& mixture, const ComponentIndex& index,
+                                       const Mixture<3>& samples, const NoveltySplit& split);
+
+}  // namespace hgmm

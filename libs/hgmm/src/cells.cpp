@@ -1,0 +1,121 @@
+#include "hgmm/cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <unordered_map>
+
+#include "hgmm/component_index.h"
+#include "hgmm/require.h"
+
+namespace hgmm {
+
+namespace {
+
+/// A cell too empty to be a component joins its parent at most this often.
+constexpr int kMaxPromotions = 3;
+
+/// Samples see components up to this distance in the E-step [sigma].
+constexpr float kNeighbourSigmas = 3.F;
+
+struct CellId {
+    std::int32_t octave = 0;
+    std::int64_t x = 0, y = 0, z = 0;
+    bool operator==(const CellId& o) const {
+        return octave == o.octave && x == o.x && y == o.y && z == o.z;
+    }
+};
+
+struct CellHash {
+    std::size_t operator()(const CellId& c) const {
+        std::uint64_t h = static_cast<std::uint64_t>(c.octave + 64);
+        for (const std::int64_t v : {c.x, c.y, c.z})
+            h = (h ^ static_cast<std::uint64_t>(v)) * 0x9E3779B97F4A7C15ULL, h ^= h >> 29U;
+        return static_cast<std::size_t>(h);
+    }
+};
+
+CellId cellAt(const Eigen::Vector3d& p, int octave) {
+    const auto cell = [octave](double v) {
+        return static_cast<std::int64_t>(std::floor(std::ldexp(v, -octave)));
+    };
+    return {octave, cell(p.x()), cell(p.y()), cell(p.z())};
+}
+
+/// The cell of each sample: as small as the sample's range says, but with `minSamples` in it
+/// where `kMaxPromotions` doublings can reach them.
+std::vector<CellId> assignCells(const Mixture<3>& samples, const Eigen::Vector3d& sensorOrigin,
+                                const CellParams& params) {
+    std::vector<CellId> cells(samples.size());
+    std::unordered_map<CellId, int, CellHash> count;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const Eigen::Vector3d p = samples[i].mean;
+        const double edge = std::max(params.minCell_m, params.cellPerRange * (p - sensorOrigin).norm());
+        cells[i] = cellAt(p, std::ilogb(edge));
+        ++count[cells[i]];
+    }
+    for (int promotion = 0; promotion < kMaxPromotions; ++promotion) {
+        std::unordered_map<CellId, int, CellHash> next;
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            if (count[cells[i]] < params.minSamples)
+                cells[i] = cellAt(samples[i].mean, cells[i].octave + 1);
+            ++next[cells[i]];
+        }
+        count = std::move(next);
+    }
+    return cells;
+}
+
+/// Each sample's own component and the others whose ellipsoid it is in.
+Neighbourhoods findNeighbourhoods(const Mixture<3>& samples, const Mixture<3>& mixture,
+                                  const std::vector<std::uint32_t>& own) {
+    ComponentIndex index(kNeighbourSigmas);
+    index.rebuild(mixture);
+    Neighbourhoods result;
+    result.begin.push_back(0);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const float p[3] = {samples.mean[0][i], samples.mean[1][i], samples.mean[2][i]};
+        const auto first = static_cast<std::ptrdiff_t>(result.component.size());
+        result.component.push_back(own[i]);
+        index.visitCandidates(p[0], p[1], p[2], [&](std::uint32_t j) {
+            if (j != own[i] &&
+                index.factor(j).squaredMahalanobis(p) <= kNeighbourSigmas * kNeighbourSigmas)
+                result.component.push_back(j);
+        });
+        std::sort(result.component.begin() + first, result.component.end());
+        result.begin.push_back(static_cast<std::uint32_t>(result.component.size()));
+    }
+    return result;
+}
+
+}  // namespace
+
+void CellParams::validate() const {
+    requireInRange("cellPerRange", cellPerRange, 1e-3, 10.0);
+    requireInRange("minCell_m", minCell_m, 1e-3, 1e3);
+    requireInRange("minSamples", minSamples, 1, 1e6);
+}
+
+InitialMixture initialiseFromCells(const Mixture<3>& samples, const Eigen::Vector3d& sensorOrigin,
+                                   const CellParams& params) {
+    const std::vector<CellId> cells = assignCells(samples, sensorOrigin, params);
+    std::unordered_map<CellId, std::uint32_t, CellHash> componentOf;
+    std::vector<std::uint32_t> own(samples.size());
+    std::vector<Gaussian<3>> components;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const auto [entry, isNew] =
+            componentOf.emplace(cells[i], static_cast<std::uint32_t>(components.size()));
+        own[i] = entry->second;
+        if (isNew)
+            components.push_back(samples[i]);
+        else
+            components[own[i]] = mergeMoments(components[own[i]], samples[i]);
+    }
+    InitialMixture initial;
+    initial.mixture.reserve(components.size());
+    for (const Gaussian<3>& c : components) initial.mixture.pushBack(c);
+    initial.neighbourhoods = findNeighbourhoods(samples, initial.mixture, own);
+    return initial;
+}
+
+}  // namespace hgmm

@@ -1,0 +1,118 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "hgmm/divergence.h"
+
+namespace hgmm {
+
+/// Finds min_j KL(f || q_j) + log(pi / tau_j) over the components of a mixture q, the term
+/// of Goldberger's approximation (thesis eq. (3.15)), without looking at all of them.
+///
+/// For any axis a, KL(f || g) >= (mu_f - mu_g)_a^2 / (2 Sigma_g,aa). Components are visited
+/// outwards from f along one axis until that bound, taken with the widest component and the
+/// largest weight, exceeds the best value found: the result is that of the full search.
+template <int D>
+class GoldbergerSearch {
+ public:
+    /// @param q not empty
+    explicit GoldbergerSearch(const Mixture<D>& q);
+
+    /// @param f, whitened the same Gaussian
+    /// @param logWeight log pi of f in its own mixture
+    double minimum(const Gaussian<D>& f, const WhitenedGaussian<D>& whitened,
+                   double logWeight) const;
+
+ private:
+    struct Entry {
+        typename Gaussian<D>::Vector mean, twiceVariance;
+        double logWeight;
+        WhitenedGaussian<D> whitened;
+    };
+
+    /// Lowers `best` if this entry is better.
+    void improve(const Entry& entry, const Gaussian<D>& f,
+                 const WhitenedGaussian<D>& whitened, double logWeight, double& best) const;
+    /// No entry this far away along the axis can do better.
+    bool outOfReach(const Entry& entry, const Gaussian<D>& f, double logWeight,
+                    double best) const {
+        const double gap = entry.mean[axis_] - f.mean[axis_];
+        return gap * gap / twiceWidest_ + logWeight - heaviest_ > best;
+    }
+
+    int axis_ = 0;
+    double twiceWidest_ = 0;      ///< twice the largest variance along the axis [m^2]
+    double heaviest_ = 0;         ///< largest logWeight
+    std::vector<Entry> entries_;  ///< sorted along the axis
+};
+
+/// The axis along which the means spread most.
+template <int D>
+int widestAxis(const Mixture<D>& mixture) {
+    int widest = 0;
+    float extent = -1;
+    for (int a = 0; a < D; ++a) {
+        const auto [low, high] =
+            std::minmax_element(mixture.mean[a].begin(), mixture.mean[a].end());
+        if (*high - *low > extent) {
+            extent = *high - *low;
+            widest = a;
+        }
+    }
+    return widest;
+}
+
+template <int D>
+GoldbergerSearch<D>::GoldbergerSearch(const Mixture<D>& q) : axis_(widestAxis(q)) {
+    const double total = q.totalSupport();
+    entries_.reserve(q.size());
+    heaviest_ = -std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < q.size(); ++j) {
+        const Gaussian<D> g = q[j];
+        // Factoring may raise pivots to 1e-12.
+        entries_.push_back({g.mean,
+                            2.0 * (g.covariance.diagonal().array() + 1e-12).matrix(),
+                            std::log(q.weight(j, total)), WhitenedGaussian<D>(g)});
+        twiceWidest_ = std::max(twiceWidest_, entries_.back().twiceVariance[axis_]);
+        heaviest_ = std::max(heaviest_, entries_.back().logWeight);
+    }
+    std::stable_sort(
+        entries_.begin(), entries_.end(),
+        [this](const Entry& a, const Entry& b) { return a.mean[axis_] < b.mean[axis_]; });
+}
+
+template <int D>
+void GoldbergerSearch<D>::improve(const Entry& entry, const Gaussian<D>& f,
+                                  const WhitenedGaussian<D>& whitened, double logWeight,
+                                  double& best) const {
+    const double weightTerm = logWeight - entry.logWeight;
+    for (int a = 0; a < D; ++a) {
+        const double gap = entry.mean[a] - f.mean[a];
+        if (gap * gap > (best - weightTerm) * entry.twiceVariance[a] * (1 + 1e-9)) return;
+    }
+    best =
+        std::min(best, klDivergence(whitened, f.covariance, entry.whitened) + weightTerm);
+}
+
+template <int D>
+double GoldbergerSearch<D>::minimum(const Gaussian<D>& f,
+                                    const WhitenedGaussian<D>& whitened,
+                                    double logWeight) const {
+    double best = std::numeric_limits<double>::infinity();
+    const auto nearest = std::lower_bound(entries_.begin(), entries_.end(), f.mean[axis_],
+                                          [this](const Entry& entry, double position) {
+                                              return entry.mean[axis_] < position;
+                                          });
+    for (auto e = nearest; e != entries_.end() && !outOfReach(*e, f, logWeight, best); ++e)
+        improve(*e, f, whitened, logWeight, best);
+    for (auto e = nearest; e != entries_.begin();) {
+        --e;
+        if (outOfReach(*e, f, logWeight, best)) break;
+        improve(*e, f, whitened, logWeight, best);
+    }
+    return best;
+}
+
+}  // namespace hgmm

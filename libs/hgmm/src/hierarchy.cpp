@@ -1,0 +1,115 @@
+#include "hgmm/hierarchy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "goldberger.h"
+#include "merge_sweep.h"
+
+namespace hgmm {
+
+namespace {
+
+/// Components farther apart than this [nat] never merge: 4500 standard deviations.
+constexpr double kLargestSimilarity = 1e7;
+
+/// KL(G_0 || G_l) for many l: G_0 is made ready once.
+template <int D>
+class ReferenceDivergence {
+ public:
+    explicit ReferenceDivergence(const Mixture<D>& reference) {
+        const double total = reference.totalSupport();
+        terms_.reserve(reference.size());
+        for (std::size_t i = 0; i < reference.size(); ++i) {
+            const Gaussian<D> g = reference[i];
+            terms_.push_back({g, WhitenedGaussian<D>(g), reference.weight(i, total)});
+        }
+    }
+
+    double to(const Mixture<D>& level) const {
+        const GoldbergerSearch<D> search(level);
+        double sum = 0;
+        for (const Term& t : terms_)
+            sum += t.weight * search.minimum(t.gaussian, t.whitened, std::log(t.weight));
+        return sum;
+    }
+
+ private:
+    struct Term {
+        Gaussian<D> gaussian;
+        WhitenedGaussian<D> whitened;
+        double weight;
+    };
+    std::vector<Term> terms_;
+};
+
+double raised(double similarity, double step) {
+    return similarity + step * std::max(1.0, similarity / 4);
+}
+
+/// Later points cannot change findKnee(): they are no candidates, and the divergence
+/// climbs.
+bool kneeIsKnown(const std::vector<DivergencePoint>& curve) {
+    return !isFidelityCandidate(curve.back(), curve.front()) && curve.size() > 1 &&
+           curve.back().divergence > curve[curve.size() - 2].divergence;
+}
+
+}  // namespace
+
+void HierarchyParams::validate() const {
+    if (levels < 1)
+        throw std::invalid_argument("HierarchyParams::levels must be at least 1");
+    if (!(similarityStart > 0) || std::isinf(similarityStart))
+        throw std::invalid_argument(
+            "HierarchyParams::similarityStart must be finite and positive");
+    if (!(similarityStep >= 0) || std::isinf(similarityStep))
+        throw std::invalid_argument(
+            "HierarchyParams::similarityStep must be finite and not negative");
+}
+
+template <int D>
+Mixture<D> mergePass(const Mixture<D>& mixture, double similarity) {
+    return MergeSweep<D>(mixture, similarity).run();
+}
+
+template <int D>
+Hierarchy<D> generateHierarchy(const Mixture<D>& reference, const HierarchyParams& params) {
+    params.validate();
+    const ReferenceDivergence<D> divergence(reference);
+    Hierarchy<D> out;
+    std::vector<Mixture<D>>& levels = out.levels;
+    levels.push_back(reference);
+    out.curve.push_back({reference.size(), 0.0, 0.0});
+
+    double similarity = params.similarityStart;
+    const auto pass = [&] {
+        Mixture<D> merged = mergePass(levels.back(), similarity);
+        const bool smaller = merged.size() < levels.back().size();
+        if (smaller) {
+            out.curve.push_back({merged.size(), divergence.to(merged), similarity});
+            levels.push_back(std::move(merged));
+        }
+        const bool mayMerge = smaller || params.similarityStep > 0;
+        similarity = raised(similarity, params.similarityStep);
+        return mayMerge && levels.back().size() > 1 && similarity < kLargestSimilarity;
+    };
+    bool more = reference.size() > 1;
+    while (more && !kneeIsKnown(out.curve)) more = pass();
+    out.knee = findKnee(out.curve);
+    const std::size_t wanted = out.knee + static_cast<std::size_t>(params.levels);
+    while (more && levels.size() < wanted) more = pass();
+
+    levels.erase(levels.begin(), levels.begin() + static_cast<std::ptrdiff_t>(out.knee));
+    levels.resize(std::min(levels.size(), static_cast<std::size_t>(params.levels)));
+    return out;
+}
+
+template Mixture<2> mergePass(const Mixture<2>&, double);
+template Mixture<3> mergePass(const Mixture<3>&, double);
+template Mixture<4> mergePass(const Mixture<4>&, double);
+template Hierarchy<2> generateHierarchy(const Mixture<2>&, const HierarchyParams&);
+template Hierarchy<3> generateHierarchy(const Mixture<3>&, const HierarchyParams&);
+template Hierarchy<4> generateHierarchy(const Mixture<4>&, const HierarchyParams&);
+
+}  // namespace hgmm

@@ -1,0 +1,72 @@
+#include "hgmm/novelty.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "hgmm/require.h"
+
+namespace hgmm {
+
+namespace {
+
+/// Samples handled by one task: fixed, so that results do not depend on the number of threads.
+constexpr std::size_t kChunk = 256;
+
+void findNeighbours(const Mixture<3>& samples, std::size_t begin, std::size_t end,
+                    const ComponentIndex& index, float maxSquared, Neighbourhoods& found) {
+    for (std::size_t i = begin; i < end; ++i) {
+        const float point[3] = {samples.mean[0][i], samples.mean[1][i], samples.mean[2][i]};
+        const std::size_t first = found.component.size();
+        index.visitCandidates(point[0], point[1], point[2], [&](std::uint32_t j) {
+            if (index.factor(j).squaredMahalanobis(point) <= maxSquared)
+                found.component.push_back(j);
+        });
+        std::sort(found.component.begin() + static_cast<std::ptrdiff_t>(first),
+                  found.component.end());
+        found.begin.push_back(static_cast<std::uint32_t>(found.component.size()));
+    }
+}
+
+}  // namespace
+
+void NoveltyParams::validate() const {
+    requireInRange("maxMahalanobis", maxMahalanobis, 0.1, ComponentIndex::kSigmas);
+}
+
+NoveltySplit splitByNovelty(const Mixture<3>& samples, const ComponentIndex& index,
+                            const NoveltyParams& params) {
+    const auto maxSquared = static_cast<float>(params.maxMahalanobis * params.maxMahalanobis);
+    const std::size_t chunks = (samples.size() + kChunk - 1) / kChunk;
+    std::vector<Neighbourhoods> found(chunks);
+#pragma omp parallel for schedule(dynamic)
+    for (std::size_t c = 0; c < chunks; ++c) {
+        found[c].begin.push_back(0);
+        findNeighbours(samples, c * kChunk, std::min(samples.size(), (c + 1) * kChunk), index,
+                       maxSquared, found[c]);
+    }
+
+    NoveltySplit split;
+    split.neighbourhoods.begin.push_back(0);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const Neighbourhoods& n = found[i / kChunk];
+        const std::uint32_t first = n.begin[i % kChunk], last = n.begin[i % kChunk + 1];
+        if (first == last) {
+            split.novel.push_back(static_cast<std::uint32_t>(i));
+            continue;
+        }
+        split.known.push_back(static_cast<std::uint32_t>(i));
+        auto& all = split.neighbourhoods.component;
+        all.insert(all.end(), n.component.begin() + first, n.component.begin() + last);
+        split.neighbourhoods.begin.push_back(static_cast<std::uint32_t>(all.size()));
+    }
+    return split;
+}
+
+Mixture<3> selected(const Mixture<3>& mixture, const std::vector<std::uint32_t>& indices) {
+    Mixture<3> rows;
+    rows.reserve(indices.size());
+    for (const std::uint32_t i : indices) rows.pushBack(mixture[i]);
+    return rows;
+}
+
+}  // namespace hgmm

@@ -1,0 +1,85 @@
+#pragma once
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/poses/CPose3D.h>
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "hgmm/map.h"
+#include "hgmm/surface_likelihood.h"
+
+namespace hgmm::mrpt_bridge {
+
+/// Which points of a scan are compared with the map, and how.
+struct LikelihoodParams {
+    double softening_m = 0.15;  ///< standard deviation added to all surfaces [m], 0 to 10
+    double outlierRatio =
+        0.05;                  ///< share of points that the map need not explain, in (0, 1)
+    int maxPoints = 60;        ///< points compared, spread over the scan [count], >= 1
+    double minRange_m = 0.1;   ///< nearer points are left out [m], >= 0
+    double maxRange_m = 80.0;  ///< farther points are left out [m], > minRange_m
+
+    /// Throws std::invalid_argument naming the field.
+    void validate() const;
+    bool operator==(const LikelihoodParams& o) const;
+};
+
+/// Likelihood of observations given a pose, for particle filters: sums SurfaceLikelihood
+/// over a spread subset of the scan's points, which are independent given the pose.
+///
+/// Keeps what calls have in common: the widened surfaces, until invalidate(), and the
+/// points of the last few observations. An observation is recognised by address, time
+/// stamp, sensor pose and a digest of its data, so that one that takes the place of another
+/// is not mistaken for it. Memory is bounded; const calls may come from several threads.
+/// Copies share the surfaces.
+class ObservationLikelihood {
+ public:
+    ObservationLikelihood() = default;
+    ObservationLikelihood(const ObservationLikelihood& o)
+        : surfaces_(o.currentSurfaces()) {}
+    ObservationLikelihood& operator=(const ObservationLikelihood& o);
+
+    /// Log-likelihood [nat], finite, <= 0, and 0 for an empty map and for observations of
+    /// unsupported types or without points in range.
+    double operator()(const Map& map, const LikelihoodParams& params,
+                      const mrpt::obs::CObservation& observation,
+                      const mrpt::poses::CPose3D& T_map_robot) const;
+
+    /// To be called when the map has changed.
+    void invalidate();
+    /// Frees the points of observations.
+    void forgetObservations();
+
+ private:
+    using Points = std::vector<Eigen::Vector3d>;  // in the robot's frame
+    struct Surfaces {
+        SurfaceLikelihood likelihood;
+        double softening_m, outlierRatio;
+    };
+    struct Key {
+        const void* address = nullptr;
+        std::uint64_t digest = 0;
+        LikelihoodParams params;
+    };
+    struct Entry {
+        Key key;
+        std::shared_ptr<const Points> points;
+    };
+    static constexpr std::size_t kMaxEntries = 4;
+
+    std::shared_ptr<const Surfaces> currentSurfaces() const;
+    std::shared_ptr<const Surfaces> surfacesOf(const Map& map,
+                                               const LikelihoodParams& params) const;
+    std::shared_ptr<const Points> pointsOf(const mrpt::obs::CObservation& observation,
+                                           const LikelihoodParams& params) const;
+
+    mutable std::mutex mutex_;
+    mutable std::shared_ptr<const Surfaces> surfaces_;
+    mutable std::vector<Entry> entries_;  // the oldest is at next_
+    mutable std::size_t next_ = 0;
+};
+
+}  // namespace hgmm::mrpt_bridge

@@ -1,0 +1,44 @@
+#pragma once
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/poses/CPose3D.h>
+
+#include <optional>
+
+#include "hgmm/scan.h"
+
+/// Where MRPT's types and the model's meet.
+namespace hgmm::mrpt_bridge {
+
+/// The same rigid transform, in double.
+Pose toPose(const mrpt::poses::CPose3D& pose);
+mrpt::poses::CPose3D toCPose3D(const Pose& pose);
+
+/// Converts an observation to a scan in the sensor's own frame: rays start at 0, +X
+/// forward, and T_map_sensor is robotPose (+) sensorPose, the only place where the two are
+/// composed.
+///
+/// | observation | points | channels in [0, 1] |
+/// | --- | --- | --- |
+/// | CObservation2DRangeScan | rays flagged valid; deltaPitch is respected | |
+/// | CObservation3DRangeScan | points3D, else the range image | r,g,b or intensity, if
+/// aligned | | CObservationPointCloud | the cloud | intensity (XYZI) or r,g,b (coloured) |
+/// | CObservationVelodyneScan | point_cloud, else generated from the packets | intensity |
+/// | CObservationRotatingScan | 1 row; 16 rows (VLP-16); 32 rows (HDL-32E) | intensity |
+///
+/// Returns, pixels and points that are invalid or not finite are left out. Fields in
+/// external storage are loaded, and unloaded again if they were not in memory before. A
+/// colour or intensity image counts as aligned if both cameras coincide and the images have
+/// the same size.
+///
+/// @param robotPose pose of the robot in the map frame; the origin if not given
+/// @return nothing for types not listed; also, with one message per process on stderr, for
+/// rotating scans with other elevations and Velodyne packets without calibration.
+/// Throws std::runtime_error if a file of an externally stored field cannot be read.
+std::optional<Scan> observationToScan(
+    const mrpt::obs::CObservation& observation,
+    const std::optional<mrpt::poses::CPose3D>& robotPose = std::nullopt);
+
+/// Whether observationToScan knows the type, decided without converting anything.
+bool isSupported(const mrpt::obs::CObservation& observation);
+
+}  // namespace hgmm::mrpt_bridge

@@ -1,0 +1,106 @@
+#include <mrpt/core/initializer.h>
+#include <mrpt/maps/CHGMMOccupancyMap.h>
+#include <mrpt/opengl/COpenGLScene.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <sstream>
+#include <stdexcept>
+
+#include "hgmm/mrpt_bridge/observation_to_scan.h"
+#include "map_archive.h"
+#include "option_fields.h"
+
+namespace bridge = ::hgmm::mrpt_bridge;
+
+namespace mrpt::maps {
+
+IMPLEMENTS_SERIALIZABLE(CHGMMOccupancyMap, CMetricMap, mrpt::maps)
+
+MRPT_INITIALIZER(registerHgmmMap) {
+    mrpt::rtti::registerClass(CLASS_ID(mrpt::maps::CHGMMOccupancyMap));
+}
+
+::hgmm::Map& CHGMMOccupancyMap::model() {
+    likelihood_.invalidate();
+    return model_;
+}
+
+::hgmm::InsertReport CHGMMOccupancyMap::insertScan(const ::hgmm::Scan& scan) {
+    // setParams drops derived data, so it is for parameters that did change.
+    if (!bridge::sameParams(model_.params(), insertionOptions.params))
+        model_.setParams(insertionOptions.params);
+    return model().insert(scan);
+}
+
+void CHGMMOccupancyMap::saveToFile(const std::string& fileName) const {
+    bridge::saveMapFile(*this, fileName);
+}
+
+void CHGMMOccupancyMap::loadFromFile(const std::string& fileName) {
+    *this = bridge::loadMapFile(fileName);
+}
+
+std::string CHGMMOccupancyMap::asString() const {
+    std::ostringstream text;
+    text << "HGMM map, " << model_.mixture().size() << " components, "
+         << model_.levelCount() << " levels";
+    return text.str();
+}
+
+void CHGMMOccupancyMap::saveMetricMapRepresentationToFile(const std::string& prefix) const {
+    saveToFile(prefix + ".hgmm");
+    if (!genericMapParams.enableSaveAs3DObject) return;
+    mrpt::opengl::COpenGLScene scene;
+    scene.insert(getVisualization());
+    if (!scene.saveToFile(prefix + ".3Dscene"))
+        throw std::runtime_error(prefix + ".3Dscene: cannot be written");
+}
+
+void CHGMMOccupancyMap::getVisualizationInto(mrpt::opengl::CSetOfObjects& objects) const {
+    if (genericMapParams.enableSaveAs3DObject)
+        bridge::appendEllipsoids(model_, renderOptions, objects);
+}
+
+void CHGMMOccupancyMap::auxParticleFilterCleanUp() {
+    likelihood_.forgetObservations();
+}
+
+uint8_t CHGMMOccupancyMap::serializeGetVersion() const {
+    return bridge::kArchiveVersion;
+}
+
+void CHGMMOccupancyMap::serializeTo(mrpt::serialization::CArchive& out) const {
+    bridge::writeMap(out, *this);
+}
+
+void CHGMMOccupancyMap::serializeFrom(mrpt::serialization::CArchive& in, uint8_t version) {
+    bridge::readMap(in, version, *this);
+}
+
+void CHGMMOccupancyMap::internal_clear() {
+    model().clear();
+}
+
+bool CHGMMOccupancyMap::internal_insertObservation(
+    const mrpt::obs::CObservation& observation,
+    const std::optional<const mrpt::poses::CPose3D>& robotPose) {
+    const auto scan = bridge::observationToScan(observation, robotPose);
+    return scan && insertScan(*scan).samples > 0;
+}
+
+double CHGMMOccupancyMap::internal_computeObservationLikelihood(
+    const mrpt::obs::CObservation& observation,
+    const mrpt::poses::CPose3D& takenFrom) const {
+    return likelihood_(model_, likelihoodOptions, observation, takenFrom);
+}
+
+bool CHGMMOccupancyMap::internal_canComputeObservationLikelihood(
+    const mrpt::obs::CObservation& observation) const {
+    return bridge::isSupported(observation);
+}
+
+void CHGMMOccupancyMap::OnPostSuccesfulInsertObs(const mrpt::obs::CObservation&) {
+    likelihood_.invalidate();
+}
+
+}  // namespace mrpt::maps

@@ -1,0 +1,122 @@
+#include "hgmm/mrpt_bridge/likelihood.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hgmm/mrpt_bridge/observation_to_scan.h"
+#include "observation_digest.h"
+
+namespace hgmm::mrpt_bridge {
+
+namespace {
+
+/// Indices of `count` of n points, one from each of `count` equal stretches. The place
+/// within its stretch varies, because the rows of an organised scan would resonate with a
+/// fixed stride.
+std::vector<std::size_t> spreadIndices(std::size_t n, std::size_t count) {
+    constexpr double goldenRatio = 0.6180339887498949;
+    std::vector<std::size_t> indices;
+    const double stretch = double(n) / double(std::min(n, count));
+    for (std::size_t i = 0; i < std::min(n, count); ++i) {
+        const double place = stretch > 1 ? std::fmod(double(i) * goldenRatio, 1.0) : 0.0;
+        indices.push_back(
+            std::min(n - 1, static_cast<std::size_t>((double(i) + place) * stretch)));
+    }
+    return indices;
+}
+
+}  // namespace
+
+ObservationLikelihood& ObservationLikelihood::operator=(const ObservationLikelihood& o) {
+    if (this == &o) return *this;
+    auto surfaces = o.currentSurfaces();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    surfaces_ = std::move(surfaces);
+    entries_.clear();
+    next_ = 0;
+    return *this;
+}
+
+double ObservationLikelihood::operator()(const Map& map, const LikelihoodParams& params,
+                                         const mrpt::obs::CObservation& observation,
+                                         const mrpt::poses::CPose3D& T_map_robot) const {
+    if (map.empty()) return 0;
+    const auto points = pointsOf(observation, params);
+    if (points->empty()) return 0;
+    const auto surfaces = surfacesOf(map, params);
+
+    const Pose T = toPose(T_map_robot);
+    const Eigen::Vector3d t_local = T.t - map.origin();
+    double sum = 0;
+    for (const Eigen::Vector3d& p : *points) {
+        const Eigen::Vector3f local = (T.R * p + t_local).cast<float>();
+        sum += surfaces->likelihood(local.x(), local.y(), local.z());
+    }
+    return sum;
+}
+
+void ObservationLikelihood::invalidate() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    surfaces_.reset();
+}
+
+void ObservationLikelihood::forgetObservations() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    entries_.clear();
+    next_ = 0;
+}
+
+std::shared_ptr<const ObservationLikelihood::Surfaces>
+ObservationLikelihood::currentSurfaces() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return surfaces_;
+}
+
+std::shared_ptr<const ObservationLikelihood::Surfaces> ObservationLikelihood::surfacesOf(
+    const Map& map, const LikelihoodParams& params) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!surfaces_ || surfaces_->softening_m != params.softening_m ||
+        surfaces_->outlierRatio != params.outlierRatio) {
+        surfaces_ = std::make_shared<const Surfaces>(Surfaces{
+            SurfaceLikelihood(map.mixture(), params.softening_m, params.outlierRatio),
+            params.softening_m, params.outlierRatio});
+    }
+    return surfaces_;
+}
+
+std::shared_ptr<const ObservationLikelihood::Points> ObservationLikelihood::pointsOf(
+    const mrpt::obs::CObservation& observation, const LikelihoodParams& params) const {
+    const Key key{&observation, digestOf(observation), params};
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const Entry& entry : entries_)
+        if (entry.key.address == key.address && entry.key.digest == key.digest &&
+            entry.key.params == key.params)
+            return entry.points;
+
+    params.validate();
+    auto points = std::make_shared<Points>();
+    if (const auto scan = observationToScan(observation)) {
+        std::vector<std::size_t> inRange;
+        for (std::size_t i = 0; i < scan->size(); ++i) {
+            const double range = std::hypot(scan->x[i], scan->y[i], scan->z[i]);
+            if (range >= params.minRange_m && range <= params.maxRange_m)
+                inRange.push_back(i);
+        }
+        const Pose& T_robot_sensor = scan->T_map_sensor;
+        for (const std::size_t k : spreadIndices(inRange.size(), params.maxPoints)) {
+            const std::size_t i = inRange[k];
+            points->push_back(T_robot_sensor.R *
+                                  Eigen::Vector3d(scan->x[i], scan->y[i], scan->z[i]) +
+                              T_robot_sensor.t);
+        }
+    }
+    const Entry entry{key, std::move(points)};
+    if (entries_.size() < kMaxEntries)
+        entries_.push_back(entry);
+    else
+        entries_[next_] = entry;
+    next_ = (next_ + 1) % kMaxEntries;
+    return entry.points;
+}
+
+}  // namespace hgmm::mrpt_bridge

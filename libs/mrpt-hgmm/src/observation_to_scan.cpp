@@ -1,0 +1,54 @@
+#include "hgmm/mrpt_bridge/observation_to_scan.h"
+
+#include <iostream>
+#include <mutex>
+#include <set>
+
+#include "scan_readers.h"
+
+using namespace mrpt::obs;
+
+namespace hgmm::mrpt_bridge {
+
+Pose toPose(const mrpt::poses::CPose3D& pose) {
+    Pose result;
+    const auto& R = pose.getRotationMatrix();
+    for (int row = 0; row < 3; ++row)
+        for (int col = 0; col < 3; ++col) result.R(row, col) = R(row, col);
+    result.t = {pose.x(), pose.y(), pose.z()};
+    return result;
+}
+
+mrpt::poses::CPose3D toCPose3D(const Pose& pose) {
+    mrpt::math::CMatrixDouble33 R;
+    for (int row = 0; row < 3; ++row)
+        for (int col = 0; col < 3; ++col) R(row, col) = pose.R(row, col);
+    return mrpt::poses::CPose3D(
+        R, mrpt::math::CMatrixDouble31({pose.t.x(), pose.t.y(), pose.t.z()}));
+}
+
+std::optional<Scan> observationToScan(
+    const CObservation& observation, const std::optional<mrpt::poses::CPose3D>& robotPose) {
+    Scan scan;
+    if (!visitSupported(observation, [&](const auto& o) { return readScan(o, scan); }))
+        return std::nullopt;
+
+    mrpt::poses::CPose3D sensorPose;
+    observation.getSensorPose(sensorPose);
+    const Pose T_robot_sensor = toPose(sensorPose);
+    scan.T_map_sensor = robotPose ? toPose(*robotPose) * T_robot_sensor : T_robot_sensor;
+    return scan;
+}
+
+bool isSupported(const CObservation& observation) {
+    return visitSupported(observation, [](const auto& o) { return canRead(o); });
+}
+
+void warnOnce(const std::string& message) {
+    static std::mutex mutex;
+    static std::set<std::string> given;
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (given.insert(message).second) std::cerr << "[hgmm] " << message << std::endl;
+}
+
+}  // namespace hgmm::mrpt_bridge

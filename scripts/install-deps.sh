@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Installs everything that building, testing and the demo need, from Debian's own packages.
+# Works as root and, with sudo, as a user. Does nothing where all is there already.
+set -euo pipefail
+
+packages=(
+    # build
+    g++ cmake ninja-build
+    libmrpt-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libnanoflann-dev
+    # tests
+    libgtest-dev libbenchmark-dev clang-format
+    # stock MRPT apps and their data, used by the tests and the demo
+    mrpt-apps mrpt-common
+)
+
+missing=()
+for package in "${packages[@]}"; do
+    state=$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null || true)
+    [[ $state == "install ok installed" ]] || missing+=("$package")
+done
+if [[ ${#missing[@]} -eq 0 ]]; then
+    exit 0
+fi
+
+as_root=()
+if [[ $EUID -ne 0 ]]; then
+    command -v sudo >/dev/null || {
+        echo "install-deps.sh: needs root or sudo to install: ${missing[*]}" >&2
+        exit 1
+    }
+    as_root=(sudo)
+fi
+export DEBIAN_FRONTEND=noninteractive
+echo "Installing: ${missing[*]}"
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null

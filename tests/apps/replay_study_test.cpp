@@ -1,0 +1,59 @@
+#include <sstream>
+#include <vector>
+
+#include "replay_map_fixture.h"
+
+using ReplayStudy = ReplayFolder;
+
+TEST_F(ReplayStudy, StudiesAreListed) {
+    const Outcome outcome = replay("--list-studies");
+    EXPECT_EQ(outcome.exitCode, 0);
+    expectHas(outcome.out, "fig3.2");
+}
+
+TEST_F(ReplayStudy, Fig32ReducesEachFrameFromAboutThreeHundred) {
+    box_room::writeRawlog(path("room.rawlog"), box_room::observations(3, 20000));
+    // No poses: each frame stands for itself.
+    const Outcome outcome =
+        replay("'" + path("room.rawlog") + "' --study fig3.2 --report " + path("report"));
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    expectHas(outcome.out, "3 frames (0 left out)");
+    std::istringstream csv(content("report/fig3.2.csv"));
+    std::string line;
+    ASSERT_TRUE(std::getline(csv, line));
+    expectHas(line, "frame,components,similarity_nat,kl_nat,cauchy_schwarz_nat");
+    int rows = 0, knees = 0, lastFrame = -1;
+    double lastSize = 0;
+    while (std::getline(csv, line)) {
+        int frame = 0, isKnee = 0;
+        double size = 0, similarity = 0, kl = 0, cs = 0;
+        ASSERT_EQ(std::sscanf(line.c_str(), "%d,%lf,%lf,%lf,%lf,%d", &frame, &size,
+                              &similarity, &kl, &cs, &isKnee),
+                  6)
+            << line;
+        if (frame != lastFrame) {
+            EXPECT_NEAR(size, 300, 30);
+            EXPECT_NEAR(cs, 0.0, 1e-6);
+        } else {
+            EXPECT_LE(size, lastSize);
+        }
+        EXPECT_GE(cs, -1e-9);
+        lastFrame = frame;
+        lastSize = size;
+        knees += isKnee;
+        ++rows;
+    }
+    EXPECT_GT(rows, 9);
+    EXPECT_EQ(knees, 3);
+    for (const char* name : {"report/fig3.2_kl.svg", "report/fig3.2_cs.svg"}) {
+        expectHas(content(name), "components");
+        expectHas(content(name), "[nat]");
+    }
+}
+
+TEST_F(ReplayStudy, ScansTooSparseForItAreSaidSo) {
+    box_room::writeRawlog(path("room.rawlog"), box_room::observations(2, 50));
+    const Outcome outcome = replay("'" + path("room.rawlog") + "' --study fig3.2");
+    EXPECT_EQ(outcome.exitCode, 1);
+    expectHas(outcome.err, "fig3.2");
+}

@@ -1,0 +1,103 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "hgmm/map.h"
+#include "room_scanner.h"
+
+namespace hgmm {
+namespace {
+
+using testing::poseAt;
+using testing::RoomScanner;
+
+MapParams editedParams() {
+    MapParams params;
+    int k = 0;
+    forEachField(params, [&](const char*, auto& member) {
+        using Member = std::remove_reference_t<decltype(member)>;
+        member = std::is_same_v<Member, int> ? member + 1 : static_cast<Member>(member * 1.01);
+        ++k;
+    });
+    EXPECT_GT(k, 10);
+    params.novelty.maxMahalanobis = 2.5;
+    return params;
+}
+
+Map filledMap() {
+    Map map(editedParams());
+    Scan scan = RoomScanner().scan(poseAt(0, 0, 1), 1);
+    scan.T_map_sensor.t += Eigen::Vector3d(1000, 2000, 30);
+    map.insert(scan);
+    return map;
+}
+
+TEST(MapIo, RoundTripIsExact) {
+    const Map map = filledMap();
+    ASSERT_GT(map.mixture().size(), 50U);
+    const auto buffer = map.save();
+    const Map loaded = Map::load(buffer.data(), buffer.size());
+    EXPECT_EQ(loaded, map);
+    EXPECT_EQ(loaded.save(), buffer);
+    EXPECT_EQ(loaded.origin(), map.origin());
+    EXPECT_EQ(loaded.params().hierarchy.levels, map.params().hierarchy.levels);
+    EXPECT_NE(loaded.params().filter.leafPerRange, FilterParams().leafPerRange);
+    const Eigen::Vector3d wall(1003.99, 2000.3, 31.1);
+    EXPECT_EQ(loaded.logDensity(wall), map.logDensity(wall));
+    EXPECT_EQ(loaded.mixture(3), map.mixture(3));
+}
+
+TEST(MapIo, MapsGoOnAfterLoading) {
+    Map map = filledMap();
+    const auto buffer = map.save();
+    Map loaded = Map::load(buffer.data(), buffer.size());
+    Scan next = RoomScanner().scan(poseAt(0.5, 0.2, 1.2, 0.7), 2);
+    next.T_map_sensor.t += Eigen::Vector3d(1000, 2000, 30);
+    map.insert(next);
+    loaded.insert(next);
+    // Index cells list components in another order after loading, which no answer may show.
+    EXPECT_EQ(loaded.save(), map.save());
+}
+
+TEST(MapIo, EmptyMapRoundTrip) {
+    const auto buffer = Map().save();
+    EXPECT_EQ(Map::load(buffer.data(), buffer.size()), Map());
+}
+
+TEST(MapIo, EveryTruncationIsRefused) {
+    const auto buffer = filledMap().save();
+    for (std::size_t size = 0; size < buffer.size(); size += size < 600 ? 1 : 997)
+        EXPECT_THROW(Map::load(buffer.data(), size), FormatError) << size;
+}
+
+TEST(MapIo, EveryFlippedByteIsRefused) {
+    auto buffer = filledMap().save();
+    for (std::size_t at = 0; at < buffer.size(); at += at < 600 ? 1 : 499) {
+        buffer[at] ^= 0x10;
+        EXPECT_THROW(Map::load(buffer.data(), buffer.size()), FormatError) << at;
+        buffer[at] ^= 0x10;
+    }
+    EXPECT_EQ(Map::load(buffer.data(), buffer.size()), filledMap());
+}
+
+TEST(MapIo, ForeignAndNewerBuffersAreNamed) {
+    const auto messageOf = [](const std::vector<std::uint8_t>& buffer) -> std::string {
+        try {
+            Map::load(buffer.data(), buffer.size());
+        } catch (const FormatError& e) {
+            return e.what();
+        }
+        return {};
+    };
+    auto buffer = filledMap().save();
+    buffer.push_back(0);
+    EXPECT_FALSE(messageOf(buffer).empty());
+    buffer.pop_back();
+    buffer[4] = 250;
+    EXPECT_NE(messageOf(buffer).find("version 250"), std::string::npos);
+    EXPECT_NE(messageOf({'P', 'C', 'D', ' ', 'x'}).find("not a saved HGMM map"), std::string::npos);
+    EXPECT_THROW(Map::load(nullptr, 0), FormatError);
+}
+
+}  // namespace
+}  // namespace hgmm

@@ -1,0 +1,95 @@
+#include "hgmm/update.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "hgmm/gaussian.h"
+
+namespace hgmm {
+namespace {
+
+struct Fixture {
+    Mixture<3> mixture, samples;
+    ComponentIndex index;
+    NoveltySplit split;
+
+    Fixture() {
+        std::mt19937_64 random(1);
+        std::normal_distribution<double> normal;
+        Gaussian<3> c;
+        c.support = 100;
+        c.covariance.diagonal() << 1.0, 0.5, 0.1;
+        mixture.pushBack(c);
+        c.support = 40;
+        c.mean << 1.5, 0.0, 0.0;
+        mixture.pushBack(c);
+        index.rebuild(mixture);
+        for (int i = 0; i < 200; ++i) {
+            Gaussian<3> s;
+            s.support = 1 + i % 3;
+            s.mean << 1.5 * normal(random), 0.5 * normal(random), 0.2 * normal(random);
+            s.covariance = 0.01 * Eigen::Matrix3d::Identity();
+            samples.pushBack(s);
+        }
+        split = splitByNovelty(samples, index, {});
+    }
+};
+
+TEST(Update, IsEquations319To322) {
+    Fixture f;
+    const Mixture<3> old = f.mixture;
+    // Direct evaluation with raw moments, as the thesis writes them.
+    double S[2];
+    Eigen::Vector3d S_mu[2];
+    Eigen::Matrix3d S_Sigma[2];
+    for (int j = 0; j < 2; ++j) {
+        const Gaussian<3> g = old[j];
+        S[j] = g.support;
+        S_mu[j] = S[j] * g.mean;
+        S_Sigma[j] = S[j] * (g.covariance + g.mean * g.mean.transpose());
+    }
+    double added = 0;
+    for (std::size_t k = 0; k < f.split.known.size(); ++k) {
+        const Gaussian<3> z = f.samples[f.split.known[k]];
+        const auto& n = f.split.neighbourhoods;
+        double p[2] = {0, 0};
+        for (std::uint32_t m = n.begin[k]; m < n.begin[k + 1]; ++m) {
+            const std::uint32_t j = n.component[m];
+            p[j] = old.weight(j, old.totalSupport()) *
+                   std::exp(WhitenedGaussian<3>(old[j]).logPdf(z.mean.data()));
+        }
+        const double sum = p[0] + p[1];
+        added += z.support;
+        for (int j = 0; j < 2; ++j) {
+            const double share = z.support * p[j] / sum;
+            S[j] += share;
+            S_mu[j] += share * z.mean;
+            S_Sigma[j] += share * (z.covariance + z.mean * z.mean.transpose());
+        }
+    }
+    const auto changed = updateKnown(f.mixture, f.index, f.samples, f.split);
+    ASSERT_EQ(changed, (std::vector<std::uint32_t>{0, 1}));
+    f.mixture.check();
+    for (int j = 0; j < 2; ++j) {
+        const Gaussian<3> g = f.mixture[j];
+        const Eigen::Vector3d mu = S_mu[j] / S[j];
+        EXPECT_NEAR(g.support, S[j], 1e-3);
+        EXPECT_TRUE(g.mean.isApprox(mu, 1e-5));
+        EXPECT_TRUE(g.covariance.isApprox(S_Sigma[j] / S[j] - mu * mu.transpose(), 1e-4));
+        // eq. (3.20): weights are supports over N + N'.
+        EXPECT_NEAR(f.mixture.weight(j, f.mixture.totalSupport()), S[j] / (140 + added), 1e-5);
+    }
+}
+
+TEST(Update, NothingKnownChangesNothing) {
+    Fixture f;
+    const Mixture<3> old = f.mixture;
+    NoveltySplit none;
+    none.neighbourhoods.begin.push_back(0);
+    EXPECT_TRUE(updateKnown(f.mixture, f.index, f.samples, none).empty());
+    EXPECT_EQ(f.mixture, old);
+}
+
+}  // namespace
+}  // namespace hgmm

@@ -1,0 +1,80 @@
+#pragma once
+#include <mrpt/config/CConfigFileMemory.h>
+#include <mrpt/maps/CHGMMOccupancyMap.h>
+
+#include <map>
+#include <string>
+
+/// Options with every value away from its default, so that a forgotten one shows.
+namespace edited {
+
+using mrpt::maps::CHGMMOccupancyMap;
+using Values = std::map<std::string, double>;
+
+inline Values values(const CHGMMOccupancyMap::TInsertionOptions& options) {
+    Values values;
+    ::hgmm::forEachField(options.params, [&](const char* name, const auto& value) {
+        values[name] = static_cast<double>(value);
+    });
+    return values;
+}
+inline Values values(const CHGMMOccupancyMap::TLikelihoodOptions& o) {
+    return {{"softening_m", o.softening_m},
+            {"outlierRatio", o.outlierRatio},
+            {"maxPoints", o.maxPoints},
+            {"minRange_m", o.minRange_m},
+            {"maxRange_m", o.maxRange_m}};
+}
+inline Values values(const CHGMMOccupancyMap::TRenderOptions& o) {
+    return {{"sigmas", o.sigmas},
+            {"level", o.level},
+            {"maxEllipsoids", o.maxEllipsoids},
+            {"colourByWeight", o.colourByWeight}};
+}
+
+inline void change(CHGMMOccupancyMap::TInsertionOptions& options) {
+    ::hgmm::forEachField(options.params, [](const char*, auto& value) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, int>)
+            value += 1;
+        else
+            value *= 0.875;  // exact in binary, inside every range
+    });
+    options.params.validate();
+}
+inline void change(CHGMMOccupancyMap::TLikelihoodOptions& o) {
+    o.softening_m = 0.2345;
+    o.outlierRatio = 0.123;
+    o.maxPoints = 77;
+    o.minRange_m = 0.45;
+    o.maxRange_m = 33.3;
+}
+inline void change(CHGMMOccupancyMap::TRenderOptions& o) {
+    o.sigmas = 1.25;
+    o.level = 2;
+    o.maxEllipsoids = 55;
+    o.colourByWeight = true;
+}
+inline void change(CHGMMOccupancyMap& map) {
+    change(map.insertionOptions);
+    change(map.likelihoodOptions);
+    change(map.renderOptions);
+    map.genericMapParams.enableObservationInsertion = false;
+    map.genericMapParams.enableSaveAs3DObject = false;
+}
+
+inline Values all(const CHGMMOccupancyMap& map) {
+    Values all = values(map.insertionOptions);
+    all.merge(values(map.likelihoodOptions));
+    all.merge(values(map.renderOptions));
+    // These are in two option structs, with equal names.
+    all["insertion minRange_m"] = map.insertionOptions.params.filter.minRange_m;
+    all["insertion maxRange_m"] = map.insertionOptions.params.filter.maxRange_m;
+    all["likelihood minRange_m"] = map.likelihoodOptions.minRange_m;
+    all["likelihood maxRange_m"] = map.likelihoodOptions.maxRange_m;
+    all["insertion"] = map.genericMapParams.enableObservationInsertion;
+    all["3D"] = map.genericMapParams.enableSaveAs3DObject;
+    all["likelihood"] = map.genericMapParams.enableObservationLikelihood;
+    return all;
+}
+
+}  // namespace edited
