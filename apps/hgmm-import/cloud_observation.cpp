@@ -4,14 +4,12 @@
 #include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 
+#include <cmath>
+
 #include "mrpt_pose.h"
 
 namespace hgmm::importer {
 namespace {
-
-bool isReturn(const Eigen::Vector3d& point) {
-    return point.allFinite() && !point.isZero(0);
-}
 
 template <class PointsMap, class Insert>
 std::size_t fill(const PcdCloud& cloud_frame, const Pose& T_frame_sensor, PointsMap& map,
@@ -19,9 +17,10 @@ std::size_t fill(const PcdCloud& cloud_frame, const Pose& T_frame_sensor, Points
     const Pose T_sensor_frame = T_frame_sensor.inverse();
     map.reserve(cloud_frame.points.size());
     for (const auto& point : cloud_frame.points) {
-        if (!isReturn(point.position)) continue;
-        const Eigen::Vector3d p = T_sensor_frame.R * point.position + T_sensor_frame.t;
-        insert(map, p.cast<float>(), point);
+        const Eigen::Vector3f p =
+            (T_sensor_frame.R * point.position + T_sensor_frame.t).cast<float>();
+        if (point.position.isZero(0) || !p.allFinite()) continue;
+        insert(map, p, point);
     }
     return cloud_frame.points.size() - map.size();
 }
@@ -46,11 +45,12 @@ CloudObservation makeCloudObservation(const PcdCloud& cloud_frame,
                                         point.g / 255.F, point.b / 255.F);
                  });
     else if (cloud_frame.hasIntensity)
-        fillInto(mrpt::maps::CPointsMapXYZI::Create(),
-                 [](auto& map, const Vector3f& p, const PcdPoint& point) {
-                     map.insertPointFast(p.x(), p.y(), p.z());
-                     map.setPointIntensity(map.size() - 1, point.intensity);
-                 });
+        fillInto(mrpt::maps::CPointsMapXYZI::Create(), [](auto& map, const Vector3f& p,
+                                                          const PcdPoint& point) {
+            map.insertPointFast(p.x(), p.y(), p.z());
+            map.setPointIntensity(map.size() - 1,
+                                  std::isfinite(point.intensity) ? point.intensity : 0);
+        });
     else
         fillInto(mrpt::maps::CSimplePointsMap::Create(),
                  [](auto& map, const Vector3f& p, const PcdPoint&) {

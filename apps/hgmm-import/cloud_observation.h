@@ -16,9 +16,9 @@ struct CloudObservation {
 
 /// Points given in a frame, as an observation of the sensor at T_frame_sensor in it: points
 /// are re-expressed in the sensor frame, and sensorPose becomes T_frame_sensor. The cloud
-/// is a coloured one if there are colours, else one with intensities (as they are) if there
-/// are any, else plain. Points that are all zero in the given frame (no return) or not
-/// finite are left out.
+/// is a coloured one if there are colours, else one with intensities (as they are,
+/// 0 if not finite) if there are any, else plain. Points that are all zero in the given
+/// frame (no return) or not finite are left out.
 CloudObservation makeCloudObservation(const PcdCloud& cloud_frame,
                                       const Pose& T_frame_sensor);
 

@@ -1,6 +1,8 @@
 #include "ellipsoid_mesh.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 
@@ -9,7 +11,8 @@
 namespace maptool {
 namespace {
 
-/// Prints the box around all components, each reaching two sigma along every axis.
+/// Prints the box around all components, each reaching one sigma along every axis: two
+/// would reach beyond the end of any flat surface.
 void printExtent(const hgmm::Map& map) {
     const hgmm::Mixture<3>& base = map.mixture();
     for (int axis = 0; axis < 3; ++axis) {
@@ -17,7 +20,7 @@ void printExtent(const hgmm::Map& map) {
             base.covariance[hgmm::packedIndex(3, axis, axis)];
         double low = std::numeric_limits<double>::infinity(), high = -low;
         for (std::size_t i = 0; i < base.size(); ++i) {
-            const double reach = 2.0 * std::sqrt(static_cast<double>(variance[i]));
+            const double reach = std::sqrt(static_cast<double>(variance[i]));
             low = std::min(low, static_cast<double>(base.mean[axis][i]) - reach);
             high = std::max(high, static_cast<double>(base.mean[axis][i]) + reach);
         }

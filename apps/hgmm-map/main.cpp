@@ -13,6 +13,7 @@ enum ExitCode { kDone = 0, kBadInput = 1, kWrongUsage = 2 };
 int main(int argc, char** argv) {
     CLI::App app{"Looks into saved Gaussian mixture maps (.hgmm) and converts them."};
     app.require_subcommand(1);
+    app.footer("Exit codes: 0 done, 1 bad input, 2 wrong usage.");
 
     std::string infoFile;
     CLI::App* info = app.add_subcommand("info", "Levels, size, extent, origin and options");
@@ -21,9 +22,13 @@ int main(int argc, char** argv) {
     maptool::SampleOptions sampling;
     CLI::App* sample = app.add_subcommand("sample", "Draw points from the map into a .ply");
     sample->add_option("MAP", sampling.mapFile, "Saved map")->required();
-    sample->add_option("-n", sampling.points, "Number of points")->required();
-    sample->add_option("--seed", sampling.seed, "Seed of the random numbers");
-    sample->add_option("--level", sampling.level, "Level of the hierarchy, 0 = finest");
+    sample->add_option("-n", sampling.points, "Number of points")
+        ->required()
+        ->check(CLI::NonNegativeNumber);
+    sample->add_option("--seed", sampling.seed, "Seed of the random numbers")
+        ->check(CLI::NonNegativeNumber);
+    sample->add_option("--level", sampling.level, "Level of the hierarchy, 0 = finest")
+        ->check(CLI::NonNegativeNumber);
     sample->add_option("-o", sampling.output, "Output file")->required();
 
     maptool::ExportOptions exporting;
@@ -34,12 +39,14 @@ int main(int argc, char** argv) {
                      "ply: ellipsoids or points; 3Dscene: MRPT")
         ->required()
         ->check(CLI::IsMember({"ply", "3Dscene"}));
-    exports->add_option("--level", exporting.level, "Level of the hierarchy, 0 = finest");
+    exports->add_option("--level", exporting.level, "Level of the hierarchy, 0 = finest")
+        ->check(CLI::NonNegativeNumber);
     auto* points = exports->add_option(
         "--points-per-component", exporting.pointsPerComponent,
         "ply: so many points of each component instead of its ellipsoid");
     points->check(CLI::PositiveNumber);
-    exports->add_option("--seed", exporting.seed, "Seed of the points");
+    exports->add_option("--seed", exporting.seed, "Seed of the points")
+        ->check(CLI::NonNegativeNumber);
     exports->add_option("-o", exporting.output, "Output file")->required();
 
     try {

@@ -1,5 +1,6 @@
 #include "ply.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 

@@ -40,11 +40,12 @@ void defineOptions(CLI::App& app, Options& o, bool& listStudies) {
     app.add_option("--report", o.reportFolder,
                    "Folder for metrics.json and figures of studies");
     app.add_option("--save-map", o.saveMap, "File for the map (.hgmm)");
-    app.add_option("--from", o.from, "First scan to use");
-    app.add_option("--to", o.to, "Last scan to use");
+    app.add_option("--from", o.from, "First scan to use")->check(CLI::NonNegativeNumber);
+    app.add_option("--to", o.to, "Last scan to use")->check(CLI::NonNegativeNumber);
     app.add_option("--threads", o.threads, "Threads (0 = one per core)")
         ->check(CLI::Range(0, 1024));
-    app.add_option("--seed", o.split.seed, "Seed of all random choices");
+    app.add_option("--seed", o.split.seed, "Seed of all random choices")
+        ->check(CLI::NonNegativeNumber);
     app.add_flag("--quiet", o.quiet, "No progress");
     app.add_option("--study", o.study, "Make a study instead of a map (--list-studies)")
         ->check(CLI::IsMember({"fig3.2"}));
@@ -116,6 +117,7 @@ int main(int argc, char** argv) {
         "Replays a recording into a hierarchical Gaussian mixture map and evaluates it."};
     Options options;
     bool listStudies = false;
+    app.footer("Exit codes: 0 done, 1 bad input, 2 wrong usage, 130 interrupted.");
     defineOptions(app, options, listStudies);
     try {
         app.parse(argc, argv);

@@ -28,7 +28,7 @@ TEST_F(Replay, FiguresOfABoxRoomArePlausible) {
     // Points spread evenly over 132 m^2 of walls, Gaussian across with 2 cm, have -3.1 nat.
     EXPECT_GT(map["loglik_hit"], -6.0);
     EXPECT_LT(map["loglik_hit"], 0.0);
-    EXPECT_GT(map["bytes_serialized"], 40 * int(map["components_surface"]));
+    EXPECT_GT(map["bytes_serialized"], 16 * int(map["components_surface"]));
     EXPECT_GT(map["bytes_live"], map["levels"][0]["bytes"]);
     EXPECT_GT(map["scan_ms_median"], 0.0);
     EXPECT_LE(map["scan_ms_median"], map["scan_ms_p99"]);

@@ -15,7 +15,8 @@ using testing::RoomScanner;
 
 TEST(Cells, KeepEverySampleAndItsMoments) {
     const Mixture<3> samples = filterScan(RoomScanner().scan(poseAt(0, 0, 1), 1), {});
-    const InitialMixture initial = initialiseFromCells(samples, Eigen::Vector3d::Zero(), {});
+    const InitialMixture initial =
+        initialiseFromCells(samples, Eigen::Vector3d::Zero(), {});
     initial.mixture.check();
     EXPECT_LT(initial.mixture.size(), samples.size() / 4);
     EXPECT_NEAR(initial.mixture.totalSupport(), samples.totalSupport(), 1.0);
@@ -25,12 +26,14 @@ TEST(Cells, KeepEverySampleAndItsMoments) {
         return all;
     };
     EXPECT_TRUE(moments(initial.mixture).mean.isApprox(moments(samples).mean, 1e-4));
-    EXPECT_TRUE(moments(initial.mixture).covariance.isApprox(moments(samples).covariance, 1e-4));
+    EXPECT_TRUE(
+        moments(initial.mixture).covariance.isApprox(moments(samples).covariance, 1e-4));
 }
 
 TEST(Cells, EverySampleHasANeighbourhoodInOrder) {
     const Mixture<3> samples = filterScan(RoomScanner().scan(poseAt(0, 0, 1), 2), {});
-    const InitialMixture initial = initialiseFromCells(samples, Eigen::Vector3d::Zero(), {});
+    const InitialMixture initial =
+        initialiseFromCells(samples, Eigen::Vector3d::Zero(), {});
     const Neighbourhoods& n = initial.neighbourhoods;
     ASSERT_EQ(n.begin.size(), samples.size() + 1);
     EXPECT_EQ(n.begin.front(), 0U);

@@ -18,7 +18,8 @@ Gaussian<3> randomComponent(std::mt19937_64& random) {
     Eigen::Matrix3d A;
     for (int k = 0; k < 9; ++k) A(k / 3, k % 3) = uniform(random);
     const double scale = std::pow(10.0, 1.5 * uniform(random) - 1.0);
-    g.covariance = scale * scale * (A * A.transpose() + 0.001 * Eigen::Matrix3d::Identity());
+    g.covariance =
+        scale * scale * (A * A.transpose() + 0.001 * Eigen::Matrix3d::Identity());
     return g;
 }
 
@@ -34,11 +35,13 @@ void expectComplete(const ComponentIndex& index, const Mixture<3>& mixture,
             for (int d = 0; d < 3; ++d) p[d] = mixture.mean[d][i] + 0.01F * uniform(random);
         }
         std::multiset<std::uint32_t> visited;
-        index.visitCandidates(p[0], p[1], p[2], [&](std::uint32_t i) { visited.insert(i); });
+        index.visitCandidates(p[0], p[1], p[2],
+                              [&](std::uint32_t i) { visited.insert(i); });
         for (std::uint32_t i = 0; i < mixture.size(); ++i) {
             EXPECT_LE(visited.count(i), 1U);
             const WhitenedGaussian<3, float> g(mixture[i]);
-            if (g.squaredMahalanobis(p) > 0.999F * ComponentIndex::kSigmas * ComponentIndex::kSigmas)
+            if (g.squaredMahalanobis(p) >
+                0.999F * ComponentIndex::kSigmas * ComponentIndex::kSigmas)
                 continue;
             ++hits;
             EXPECT_EQ(visited.count(i), 1U) << "component " << i << " is missing";

@@ -67,10 +67,8 @@ TEST(Em, SparseIsAsGoodAsDenseOnHeldOutPoints) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const Mixture<3> training = furnishedRoom(6000, seed);
         const Mixture<3> heldOut = furnishedRoom(3000, seed + 100);
-        CellParams cells;
-        cells.cellPerRange = 0.25;
         const InitialMixture guess =
-            initialiseFromCells(training, Eigen::Vector3d(0, 0, 1.2), cells);
+            initialiseFromCells(training, Eigen::Vector3d(0, 0, 1.2), CellParams());
         EmParams params;
         params.minImprovement = 0;
         const auto sparse =
@@ -80,8 +78,10 @@ TEST(Em, SparseIsAsGoodAsDenseOnHeldOutPoints) {
         const double start = scoreOf(guess.mixture, heldOut);
         const double withSparse = scoreOf(sparse.mixture, heldOut);
         const double withDense = scoreOf(dense.mixture, heldOut);
-        std::cout << dense.mixture.size() << " components, held-out log-likelihood "
-                  << start << " from cells, " << withSparse << " sparse, " << withDense
+        std::cout << dense.mixture.size() << " components, "
+                  << double(guess.neighbourhoods.component.size()) / training.size()
+                  << " neighbours a sample, held-out log-likelihood " << start
+                  << " from cells, " << withSparse << " sparse, " << withDense
                   << " dense\n";
         RecordProperty("dense_minus_sparse_nat_" + std::to_string(seed),
                        std::to_string(withDense - withSparse));

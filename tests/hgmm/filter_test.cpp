@@ -34,7 +34,8 @@ TEST(Filter, AgreesWithADirectGrouping) {
             std::max(float(params.minLeaf_m), float(params.leafPerRange) * range));
         const double edge = std::ldexp(1.0, octave);
         leaves[{octave, std::lround(std::floor(p.x() / edge)),
-                std::lround(std::floor(p.y() / edge)), std::lround(std::floor(p.z() / edge))}]
+                std::lround(std::floor(p.y() / edge)),
+                std::lround(std::floor(p.z() / edge))}]
             .push_back(p.cast<double>());
     }
     FilterCounts counts;
@@ -57,8 +58,10 @@ TEST(Filter, AgreesWithADirectGrouping) {
         bool found = false;
         for (std::size_t i = 0; i < samples.size() && !found; ++i) {
             const Gaussian<3> s = samples[i];
-            if ((s.mean - mean).norm() > 1e-5 || s.support != double(points.size())) continue;
-            found = (s.covariance - outer - 1e-8 * Eigen::Matrix3d::Identity()).norm() < 1e-7;
+            if ((s.mean - mean).norm() > 1e-5 || s.support != double(points.size()))
+                continue;
+            found =
+                (s.covariance - outer - 1e-8 * Eigen::Matrix3d::Identity()).norm() < 1e-7;
         }
         EXPECT_TRUE(found);
         support += double(points.size());
@@ -69,11 +72,13 @@ TEST(Filter, AgreesWithADirectGrouping) {
 TEST(Filter, LeavesGrowWithRange) {
     Scan scan;
     for (const float range : {1.F, 100.F})
-        for (int i = 0; i < 1000; ++i) scan.pushBack(range, range * 0.1F * float(i) / 1000.F, 0.F);
+        for (int i = 0; i < 1000; ++i)
+            scan.pushBack(range, range * 0.1F * float(i) / 1000.F, 0.F);
     const Mixture<3> samples = filterScan(scan, {});
     std::size_t near = 0, far = 0;
     for (const float x : samples.mean[0]) ++(x < 50.F ? near : far);
-    EXPECT_NEAR(double(near), double(far), 0.5 * double(near));  // octaves: up to a factor of 2
+    EXPECT_NEAR(double(near), double(far),
+                0.5 * double(near));  // octaves: up to a factor of 2
     EXPECT_GT(far, 3U);
 }
 
@@ -104,7 +109,8 @@ TEST(Filter, ASinglePointIsAGaussianOfTheSensorsNoise) {
     params.noiseStd_m = 0.01;
     params.noisePerRange = 0.002;
     const Gaussian<3> sample = filterScan(scan, params)[0];
-    EXPECT_TRUE(sample.covariance.isApprox(0.03 * 0.03 * Eigen::Matrix3d::Identity(), 1e-5));
+    EXPECT_TRUE(
+        sample.covariance.isApprox(0.03 * 0.03 * Eigen::Matrix3d::Identity(), 1e-5));
 }
 
 TEST(Filter, DegenerateClustersStayPositiveDefinite) {

@@ -127,7 +127,8 @@ void expectConsistent(const Mixture<D>& reference, const Hierarchy<D>& h, int le
         const DivergencePoint& point = h.curve[h.knee + l];
         EXPECT_EQ(h.levels[l].size(), point.size);
         if (h.knee + l > 0) {
-            EXPECT_NEAR(klDivergence(reference, h.levels[l]), point.divergence, 1e-9);
+            // Supports are floats: the total of a level differs by some 1e-8 from the last.
+            EXPECT_NEAR(klDivergence(reference, h.levels[l]), point.divergence, 1e-6);
         }
         EXPECT_NEAR(h.levels[l].totalSupport() / reference.totalSupport(), 1, 1e-5);
         EXPECT_NO_THROW(h.levels[l].check());

@@ -18,7 +18,8 @@ using testing::RoomScanner;
 Map roomMap(int scans = 6) {
     Map map;
     for (int i = 0; i < scans; ++i)
-        map.insert(RoomScanner().scan(poseAt(0.5 * i - 1.5, 0.2 * i, 1.0 + 0.05 * i, 0.4 * i), 10 + i));
+        map.insert(RoomScanner().scan(
+            poseAt(0.5 * i - 1.5, 0.2 * i, 1.0 + 0.05 * i, 0.4 * i), 10 + i));
     return map;
 }
 
@@ -129,10 +130,14 @@ TEST(Map, DegenerateScansGiveValidMaps) {
     const auto point = [](int kind, int i) -> Eigen::Vector3f {
         const float a = 0.01F * float(i % 40), b = 0.01F * float(i / 40);
         switch (kind) {
-            case 0: return {2.F, 1.F, 0.5F};           // identical
-            case 1: return {2.F, 1.F + a + b, 0.5F};   // on a line
-            case 2: return {2.F, 1.F + a, 0.5F + b};   // on a plane
-            default: return {float(1 + 50 * i), 0, 0}; // one by one, ever farther
+            case 0:
+                return {2.F, 1.F, 0.5F};  // identical
+            case 1:
+                return {2.F, 1.F + a + b, 0.5F};  // on a line
+            case 2:
+                return {2.F, 1.F + a, 0.5F + b};  // on a plane
+            default:
+                return {float(1 + 50 * i), 0, 0};  // one by one, ever farther
         }
     };
     for (int kind = 0; kind < 4; ++kind) {

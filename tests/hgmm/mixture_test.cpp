@@ -28,8 +28,9 @@ Gaussian<D> randomGaussian(std::mt19937_64& random) {
 
 template <typename T>
 class MixtureTest : public ::testing::Test {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>,
-                                    std::integral_constant<int, 4>>;
+using Dimensions =
+    ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>,
+                     std::integral_constant<int, 4>>;
 TYPED_TEST_SUITE(MixtureTest, Dimensions);
 
 TYPED_TEST(MixtureTest, StoresWhatItIsGiven) {
@@ -79,7 +80,8 @@ TYPED_TEST(MixtureTest, WhitenedGaussianAgreesWithEigen) {
         EXPECT_NEAR(whitened.squaredMahalanobis(x.data()), squared, 1e-9 * (1 + squared));
         EXPECT_NEAR(whitened.logDeterminant(), logDet, 1e-9);
         EXPECT_NEAR(whitened.logPdf(x.data()),
-                    -0.5 * (D * std::log(2 * M_PI) + logDet + squared), 1e-8 * (1 + squared));
+                    -0.5 * (D * std::log(2 * M_PI) + logDet + squared),
+                    1e-8 * (1 + squared));
         EXPECT_NEAR(whitened.traceOfPrecisionTimes(C), llt.solve(C).trace(),
                     1e-8 * llt.solve(C).trace());
     }
@@ -98,8 +100,9 @@ TYPED_TEST(MixtureTest, AppendGivesTheWeightsOfEquation323) {
     double sum = 0;
     for (std::size_t i = 0; i < joined.size(); ++i) {
         const double weight = joined.weight(i, joined.totalSupport());
-        const double expected = i < 4 ? old.weight(i, N) * N / (N + N_added)
-                                      : added.weight(i - 4, N_added) * N_added / (N + N_added);
+        const double expected =
+            i < 4 ? old.weight(i, N) * N / (N + N_added)
+                  : added.weight(i - 4, N_added) * N_added / (N + N_added);
         EXPECT_NEAR(weight, expected, 1e-6);
         sum += weight;
     }
@@ -116,7 +119,8 @@ TYPED_TEST(MixtureTest, MergedMomentsAreThoseOfTheUnion) {
         return g.support * (g.covariance + g.mean * g.mean.transpose());
     };
     EXPECT_NEAR(m.support, a.support + b.support, 1e-12);
-    EXPECT_TRUE((m.support * m.mean).isApprox(a.support * a.mean + b.support * b.mean, 1e-12));
+    EXPECT_TRUE(
+        (m.support * m.mean).isApprox(a.support * a.mean + b.support * b.mean, 1e-12));
     EXPECT_TRUE(second(m).isApprox(second(a) + second(b), 1e-12));
 }
 

@@ -1,28 +1,38 @@
 #pragma once
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "hgmm/scan.h"
 
 namespace hgmm::testing {
 
-/// A box-shaped room with a lidar in it: scans whose every point is known in closed form.
-struct RoomScanner {
-    Eigen::Vector3d low{-4.0, -3.0, 0.0};   ///< corner of the room, map frame [m]
-    Eigen::Vector3d high{4.0, 3.0, 2.5};    ///< opposite corner, map frame [m]
-    int azimuths = 360, elevations = 32;    ///< rays [count]
-    double elevationSpan_rad = 1.0;         ///< from -half to +half
-    double noiseStd_m = 0.005;              ///< on the range
+/// An axis-aligned box, corners in the map frame [m].
+using Box = Eigen::AlignedBox3d;
 
-    /// Distance [m] from `origin` inside the room to the wall in unit direction `direction`.
-    double range(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
-        double nearest = std::numeric_limits<double>::infinity();
-        for (int d = 0; d < 3; ++d) {
-            if (direction[d] == 0) continue;
-            const double wall = direction[d] > 0 ? high[d] : low[d];
-            nearest = std::min(nearest, (wall - origin[d]) / direction[d]);
+/// A furnished room with a lidar in it: scans whose every point is known in closed form.
+struct RoomScanner {
+    Box room{Eigen::Vector3d(-4.0, -3.0, 0.0), Eigen::Vector3d(4.0, 3.0, 2.5)};
+    std::vector<Box> furniture = {
+        {Eigen::Vector3d(-3.9, -2.9, 0.0), Eigen::Vector3d(-3.3, -1.0, 1.9)},  // shelf
+        {Eigen::Vector3d(1.0, 1.6, 0.0), Eigen::Vector3d(2.2, 2.4, 0.8)},      // chest
+        {Eigen::Vector3d(2.8, -2.5, 0.0), Eigen::Vector3d(3.4, -1.9, 1.2)},    // bin
+        {Eigen::Vector3d(-1.6, 2.0, 0.0), Eigen::Vector3d(-1.3, 2.3, 2.5)},    // column
+        {Eigen::Vector3d(-2.2, -0.4, 0.0), Eigen::Vector3d(-1.8, 0.2, 0.5)}};  // stool
+    int azimuths = 360, elevations = 32;  ///< rays [count]
+    double elevationSpan_rad = 1.0;       ///< from -half to +half
+    double noiseStd_m = 0.005;            ///< on the range
+
+    /// Distance [m] from `origin`, in free space, to the first surface in unit direction
+    /// `u`.
+    double range(const Eigen::Vector3d& origin, const Eigen::Vector3d& u) const {
+        double nearest = crossing(room, origin, u).second;
+        for (const Box& box : furniture) {
+            const auto [enter, leave] = crossing(box, origin, u);
+            if (enter > 0 && enter < leave) nearest = std::min(nearest, enter);
         }
         return nearest;
     }
@@ -45,6 +55,22 @@ struct RoomScanner {
             }
         }
         return result;
+    }
+
+ private:
+    /// Distances at which the ray's line enters and leaves a box (enter > leave: it does
+    /// not).
+    static std::pair<double, double> crossing(const Box& box, const Eigen::Vector3d& origin,
+                                              const Eigen::Vector3d& u) {
+        double enter = -std::numeric_limits<double>::infinity();
+        double leave = std::numeric_limits<double>::infinity();
+        for (int d = 0; d < 3; ++d) {
+            const double a = (box.min()[d] - origin[d]) / u[d];
+            const double b = (box.max()[d] - origin[d]) / u[d];
+            enter = std::max(enter, std::min(a, b));
+            leave = std::min(leave, std::max(a, b));
+        }
+        return {enter, leave};
     }
 };
 

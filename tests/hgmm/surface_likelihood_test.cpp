@@ -27,13 +27,17 @@ TEST(SurfaceLikelihood, IsItsFormula) {
     const Mixture<3> mixture = wallAndPost();
     const SurfaceLikelihood likelihood(mixture, softening, outliers);
     for (double x = -0.5; x < 1.5; x += 0.05) {
-        const double wall = x * x / (0.0001 + 0.01), post = (x - 1) * (x - 1) / (0.01 + 0.01);
+        const double wall = x * x / (0.0001 + 0.01),
+                     post = (x - 1) * (x - 1) / (0.01 + 0.01);
         double squared = std::min(wall, post);
-        // Components are left out beyond the index' reach, where they add less than the floor.
+        // Components are left out beyond the index' reach, where they add less than the
+        // floor.
         if (squared > 16) squared = 1e9;
-        const double expected = std::log(outliers + (1 - outliers) * std::exp(-0.5 * squared));
+        const double expected =
+            std::log(outliers + (1 - outliers) * std::exp(-0.5 * squared));
         EXPECT_NEAR(likelihood(float(x), 0.F, 0.F), expected, 2e-2) << "x = " << x;
-        EXPECT_NEAR(likelihood(float(x), 0.F, 0.F), expected, std::abs(squared - 16) < 2 ? 2e-2 : 1e-3);
+        EXPECT_NEAR(likelihood(float(x), 0.F, 0.F), expected,
+                    std::abs(squared - 16) < 2 ? 2e-2 : 1e-3);
     }
 }
 

@@ -78,7 +78,8 @@ TEST(Update, IsEquations319To322) {
         EXPECT_TRUE(g.mean.isApprox(mu, 1e-5));
         EXPECT_TRUE(g.covariance.isApprox(S_Sigma[j] / S[j] - mu * mu.transpose(), 1e-4));
         // eq. (3.20): weights are supports over N + N'.
-        EXPECT_NEAR(f.mixture.weight(j, f.mixture.totalSupport()), S[j] / (140 + added), 1e-5);
+        EXPECT_NEAR(f.mixture.weight(j, f.mixture.totalSupport()), S[j] / (140 + added),
+                    1e-5);
     }
 }
 

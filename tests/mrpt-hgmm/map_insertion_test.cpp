@@ -35,7 +35,7 @@ TEST(MapInsertion, RobotAndSensorPoseCountAlikeForEveryType) {
         ASSERT_TRUE(split.insertObservation(*o, A)) << name;
         o->setSensorPose(CPose3D());
         ASSERT_TRUE(joined.insertObservation(*o, A + B)) << name;
-        EXPECT_GT(split.model().mixture().size(), 3U) << name;
+        EXPECT_GE(split.model().mixture().size(), 2U) << name;
         expectSameComponents(split, joined, name);
     }
 }

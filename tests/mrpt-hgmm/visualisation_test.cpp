@@ -17,6 +17,9 @@ CHGMMOccupancyMap wallMap() {
     CHGMMOccupancyMap map;
     map.insertObservation(*observations::cloud(),
                           mrpt::poses::CPose3D(200, 0, 1, 0.3, 0, 0));
+    map.insertObservation(*observations::rotating(16),
+                          mrpt::poses::CPose3D(230, 0, 2, 0, 0, 0));
+    EXPECT_GT(map.model().mixture().size(), 5U);
     return map;
 }
 
@@ -76,7 +79,8 @@ TEST(Visualisation, ColourShowsHeightOrWeight) {
     CHGMMOccupancyMap map = wallMap();
     const auto colours = [&] {
         std::vector<int> result;
-        for (const auto& o : *map.getVisualization()) {
+        const auto objects = map.getVisualization();
+        for (const auto& o : *objects) {
             const auto c = o->getColor_u8();
             result.push_back((c.R << 16) | (c.G << 8) | c.B);
         }

@@ -1,5 +1,6 @@
 #include "hgmm/evaluation/split.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <stdexcept>

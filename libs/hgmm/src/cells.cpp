@@ -15,8 +15,9 @@ namespace {
 /// A cell too empty to be a component joins its parent at most this often.
 constexpr int kMaxPromotions = 3;
 
-/// Samples see components up to this distance in the E-step [sigma].
-constexpr float kNeighbourSigmas = 3.F;
+/// Samples see components up to this distance in the E-step [sigma]: the far corner of a
+/// touching cell of evenly spread samples lies at 3 sqrt(3) = 5.2.
+constexpr float kNeighbourSigmas = 6.F;
 
 struct CellId {
     std::int32_t octave = 0;
@@ -42,15 +43,17 @@ CellId cellAt(const Eigen::Vector3d& p, int octave) {
     return {octave, cell(p.x()), cell(p.y()), cell(p.z())};
 }
 
-/// The cell of each sample: as small as the sample's range says, but with `minSamples` in it
-/// where `kMaxPromotions` doublings can reach them.
-std::vector<CellId> assignCells(const Mixture<3>& samples, const Eigen::Vector3d& sensorOrigin,
+/// The cell of each sample: as small as the sample's range says, but with `minSamples` in
+/// it where `kMaxPromotions` doublings can reach them.
+std::vector<CellId> assignCells(const Mixture<3>& samples,
+                                const Eigen::Vector3d& sensorOrigin,
                                 const CellParams& params) {
     std::vector<CellId> cells(samples.size());
     std::unordered_map<CellId, int, CellHash> count;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const Eigen::Vector3d p = samples[i].mean;
-        const double edge = std::max(params.minCell_m, params.cellPerRange * (p - sensorOrigin).norm());
+        const double edge =
+            std::max(params.minCell_m, params.cellPerRange * (p - sensorOrigin).norm());
         cells[i] = cellAt(p, std::ilogb(edge));
         ++count[cells[i]];
     }
@@ -78,8 +81,8 @@ Neighbourhoods findNeighbourhoods(const Mixture<3>& samples, const Mixture<3>& m
         const auto first = static_cast<std::ptrdiff_t>(result.component.size());
         result.component.push_back(own[i]);
         index.visitCandidates(p[0], p[1], p[2], [&](std::uint32_t j) {
-            if (j != own[i] &&
-                index.factor(j).squaredMahalanobis(p) <= kNeighbourSigmas * kNeighbourSigmas)
+            if (j != own[i] && index.factor(j).squaredMahalanobis(p) <=
+                                   kNeighbourSigmas * kNeighbourSigmas)
                 result.component.push_back(j);
         });
         std::sort(result.component.begin() + first, result.component.end());
@@ -96,7 +99,8 @@ void CellParams::validate() const {
     requireInRange("minSamples", minSamples, 1, 1e6);
 }
 
-InitialMixture initialiseFromCells(const Mixture<3>& samples, const Eigen::Vector3d& sensorOrigin,
+InitialMixture initialiseFromCells(const Mixture<3>& samples,
+                                   const Eigen::Vector3d& sensorOrigin,
                                    const CellParams& params) {
     const std::vector<CellId> cells = assignCells(samples, sensorOrigin, params);
     std::unordered_map<CellId, std::uint32_t, CellHash> componentOf;

@@ -21,8 +21,8 @@ ComponentIndex::Placement ComponentIndex::placementOf(const Gaussian<3>& g) cons
         largest = std::max(largest, halfExtent[d]);
     }
     Placement p;
-    p.octave = static_cast<std::int8_t>(
-        std::clamp(static_cast<int>(std::ceil(std::log2(largest))), kMinOctave, kMaxOctave));
+    p.octave = static_cast<std::int8_t>(std::clamp(
+        static_cast<int>(std::ceil(std::log2(largest))), kMinOctave, kMaxOctave));
     for (int d = 0; d < 3; ++d) {
         p.low[d] = cellOf(static_cast<float>(g.mean[d] - halfExtent[d]), p.octave);
         p.high[d] = cellOf(static_cast<float>(g.mean[d] + halfExtent[d]), p.octave);
@@ -56,7 +56,8 @@ void ComponentIndex::update(const Mixture<3>& mixture, std::uint32_t i) {
     Gaussian<3> g = mixture[i];
     for (int d = 0; d < 3; ++d) g.covariance(d, d) += inflationVariance_;
     const Placement placement = placementOf(g);
-    if (i > factors_.size()) throw std::out_of_range("ComponentIndex::update: a gap before it");
+    if (i > factors_.size())
+        throw std::out_of_range("ComponentIndex::update: a gap before it");
     if (i == factors_.size()) {
         factors_.emplace_back(g);
         placements_.push_back(placement);
@@ -100,11 +101,12 @@ std::size_t ComponentIndex::liveBytes() const {
     // A node of the hash table: key, vector header, next pointer and the allocator's word.
     constexpr std::size_t nodeBytes =
         sizeof(std::uint64_t) + sizeof(std::vector<std::uint32_t>) + 2 * sizeof(void*);
-    std::size_t bytes = factors_.capacity() * sizeof(Factor) +
-                        placements_.capacity() * sizeof(Placement);
+    std::size_t bytes =
+        factors_.capacity() * sizeof(Factor) + placements_.capacity() * sizeof(Placement);
     for (const Cells& cells : levels_) {
         bytes += cells.bucket_count() * sizeof(void*) + cells.size() * nodeBytes;
-        for (const auto& cell : cells) bytes += cell.second.capacity() * sizeof(std::uint32_t);
+        for (const auto& cell : cells)
+            bytes += cell.second.capacity() * sizeof(std::uint32_t);
     }
     return bytes;
 }

@@ -63,7 +63,9 @@ double klDivergence(const Mixture<D>& p, const Mixture<D>& q) {
     for (std::size_t i = 0; i < p.size(); ++i) {
         const Gaussian<D> f = p[i];
         const double weight = p.weight(i, total);
-        sum += weight * search.minimum(f, WhitenedGaussian<D>(f), std::log(weight));
+        typename GoldbergerSearch<D>::Match best;
+        search.improve(f, WhitenedGaussian<D>(f), std::log(weight), best);
+        sum += weight * best.cost;
     }
     return sum;
 }

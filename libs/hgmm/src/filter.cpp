@@ -10,8 +10,8 @@ namespace hgmm {
 
 namespace {
 
-/// Sums over the points of one leaf, taken about its first point so that they keep their digits
-/// far from the sensor.
+/// Sums over the points of one leaf, taken about its first point so that they keep their
+/// digits far from the sensor.
 struct Leaf {
     std::uint64_t key = 0;
     std::array<float, 3> anchor{};
@@ -31,7 +31,7 @@ struct Leaf {
 
 /// Open-addressing table from leaf key to leaf, in order of first appearance.
 class LeafTable {
-   public:
+ public:
     explicit LeafTable(std::size_t points) {
         std::size_t slots = 1024;
         while (slots < points / 8) slots *= 2;
@@ -56,7 +56,7 @@ class LeafTable {
 
     const std::vector<Leaf>& leaves() const { return leaves_; }
 
-   private:
+ private:
     static constexpr std::uint32_t kFree = 0xFFFFFFFFU;
 
     static std::size_t hash(std::uint64_t key) {
@@ -83,9 +83,12 @@ std::uint64_t leafKey(int octave, float x, float y, float z) {
     constexpr std::uint64_t mask = (1U << 19U) - 1U;
     const float perLeaf = std::ldexp(1.F, -octave);
     const auto cell = [&](float v) {
-        return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(v * perLeaf))) & mask;
+        return static_cast<std::uint64_t>(
+                   static_cast<std::int64_t>(std::floor(v * perLeaf))) &
+               mask;
     };
-    return static_cast<std::uint64_t>(octave + 32) << 57U | cell(x) << 38U | cell(y) << 19U | cell(z);
+    return static_cast<std::uint64_t>(octave + 32) << 57U | cell(x) << 38U |
+           cell(y) << 19U | cell(z);
 }
 
 Gaussian<3> sampleOf(const Leaf& leaf, const FilterParams& params) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -18,23 +19,30 @@ template <int D>
 class GoldbergerSearch {
  public:
     /// @param q not empty
-    explicit GoldbergerSearch(const Mixture<D>& q);
+    /// @param only if given, the components of q to search: those that are true
+    explicit GoldbergerSearch(const Mixture<D>& q, const std::vector<bool>* only = nullptr);
 
+    struct Match {
+        double cost = std::numeric_limits<double>::infinity();  ///< [nat]
+        std::uint32_t component = 0;                            ///< of q
+    };
+
+    /// Replaces `best` by the best component if that is better.
     /// @param f, whitened the same Gaussian
     /// @param logWeight log pi of f in its own mixture
-    double minimum(const Gaussian<D>& f, const WhitenedGaussian<D>& whitened,
-                   double logWeight) const;
+    void improve(const Gaussian<D>& f, const WhitenedGaussian<D>& whitened,
+                 double logWeight, Match& best) const;
 
  private:
     struct Entry {
         typename Gaussian<D>::Vector mean, twiceVariance;
         double logWeight;
+        std::uint32_t component;
         WhitenedGaussian<D> whitened;
     };
 
-    /// Lowers `best` if this entry is better.
-    void improve(const Entry& entry, const Gaussian<D>& f,
-                 const WhitenedGaussian<D>& whitened, double logWeight, double& best) const;
+    void tryEntry(const Entry& entry, const Gaussian<D>& f,
+                  const WhitenedGaussian<D>& whitened, double logWeight, Match& best) const;
     /// No entry this far away along the axis can do better.
     bool outOfReach(const Entry& entry, const Gaussian<D>& f, double logWeight,
                     double best) const {
@@ -65,16 +73,19 @@ int widestAxis(const Mixture<D>& mixture) {
 }
 
 template <int D>
-GoldbergerSearch<D>::GoldbergerSearch(const Mixture<D>& q) : axis_(widestAxis(q)) {
+GoldbergerSearch<D>::GoldbergerSearch(const Mixture<D>& q, const std::vector<bool>* only)
+    : axis_(widestAxis(q)) {
     const double total = q.totalSupport();
     entries_.reserve(q.size());
     heaviest_ = -std::numeric_limits<double>::infinity();
     for (std::size_t j = 0; j < q.size(); ++j) {
+        if (only && !(*only)[j]) continue;
         const Gaussian<D> g = q[j];
         // Factoring may raise pivots to 1e-12.
         entries_.push_back({g.mean,
                             2.0 * (g.covariance.diagonal().array() + 1e-12).matrix(),
-                            std::log(q.weight(j, total)), WhitenedGaussian<D>(g)});
+                            std::log(q.weight(j, total)), static_cast<std::uint32_t>(j),
+                            WhitenedGaussian<D>(g)});
         twiceWidest_ = std::max(twiceWidest_, entries_.back().twiceVariance[axis_]);
         heaviest_ = std::max(heaviest_, entries_.back().logWeight);
     }
@@ -84,35 +95,34 @@ GoldbergerSearch<D>::GoldbergerSearch(const Mixture<D>& q) : axis_(widestAxis(q)
 }
 
 template <int D>
-void GoldbergerSearch<D>::improve(const Entry& entry, const Gaussian<D>& f,
-                                  const WhitenedGaussian<D>& whitened, double logWeight,
-                                  double& best) const {
+void GoldbergerSearch<D>::tryEntry(const Entry& entry, const Gaussian<D>& f,
+                                   const WhitenedGaussian<D>& whitened, double logWeight,
+                                   Match& best) const {
     const double weightTerm = logWeight - entry.logWeight;
     for (int a = 0; a < D; ++a) {
         const double gap = entry.mean[a] - f.mean[a];
-        if (gap * gap > (best - weightTerm) * entry.twiceVariance[a] * (1 + 1e-9)) return;
+        if (gap * gap > (best.cost - weightTerm) * entry.twiceVariance[a] * (1 + 1e-9))
+            return;
     }
-    best =
-        std::min(best, klDivergence(whitened, f.covariance, entry.whitened) + weightTerm);
+    const double cost = klDivergence(whitened, f.covariance, entry.whitened) + weightTerm;
+    if (cost < best.cost) best = {cost, entry.component};
 }
 
 template <int D>
-double GoldbergerSearch<D>::minimum(const Gaussian<D>& f,
-                                    const WhitenedGaussian<D>& whitened,
-                                    double logWeight) const {
-    double best = std::numeric_limits<double>::infinity();
+void GoldbergerSearch<D>::improve(const Gaussian<D>& f, const WhitenedGaussian<D>& whitened,
+                                  double logWeight, Match& best) const {
     const auto nearest = std::lower_bound(entries_.begin(), entries_.end(), f.mean[axis_],
                                           [this](const Entry& entry, double position) {
                                               return entry.mean[axis_] < position;
                                           });
-    for (auto e = nearest; e != entries_.end() && !outOfReach(*e, f, logWeight, best); ++e)
-        improve(*e, f, whitened, logWeight, best);
+    for (auto e = nearest; e != entries_.end() && !outOfReach(*e, f, logWeight, best.cost);
+         ++e)
+        tryEntry(*e, f, whitened, logWeight, best);
     for (auto e = nearest; e != entries_.begin();) {
         --e;
-        if (outOfReach(*e, f, logWeight, best)) break;
-        improve(*e, f, whitened, logWeight, best);
+        if (outOfReach(*e, f, logWeight, best.cost)) break;
+        tryEntry(*e, f, whitened, logWeight, best);
     }
-    return best;
 }
 
 }  // namespace hgmm

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "goldberger.h"
@@ -14,24 +15,38 @@ namespace {
 /// Components farther apart than this [nat] never merge: 4500 standard deviations.
 constexpr double kLargestSimilarity = 1e7;
 
-/// KL(G_0 || G_l) for many l: G_0 is made ready once.
+/// KL(G_0 || G_l) for one level after the other. A component of G_0 keeps its counterpart
+/// in G_l as long as that does not merge; then only merged ones can have come nearer.
 template <int D>
 class ReferenceDivergence {
  public:
     explicit ReferenceDivergence(const Mixture<D>& reference) {
+        if (reference.empty()) return;
+        const GoldbergerSearch<D> search(reference);
         const double total = reference.totalSupport();
         terms_.reserve(reference.size());
         for (std::size_t i = 0; i < reference.size(); ++i) {
             const Gaussian<D> g = reference[i];
-            terms_.push_back({g, WhitenedGaussian<D>(g), reference.weight(i, total)});
+            const double weight = reference.weight(i, total);
+            terms_.push_back({g, WhitenedGaussian<D>(g), weight, std::log(weight), {}});
+            search.improve(g, terms_[i].whitened, terms_[i].logWeight, terms_[i].best);
         }
     }
 
-    double to(const Mixture<D>& level) const {
-        const GoldbergerSearch<D> search(level);
+    /// @param level made from the level before by `sweep`
+    double to(const Mixture<D>& level, const MergeSweep<D>& sweep) {
+        const GoldbergerSearch<D> all(level), changed(level, &sweep.merged());
         double sum = 0;
-        for (const Term& t : terms_)
-            sum += t.weight * search.minimum(t.gaussian, t.whitened, std::log(t.weight));
+        for (Term& t : terms_) {
+            t.best.component = sweep.heirs()[t.best.component];
+            if (sweep.merged()[t.best.component]) {
+                t.best.cost = std::numeric_limits<double>::infinity();
+                all.improve(t.gaussian, t.whitened, t.logWeight, t.best);
+            } else {
+                changed.improve(t.gaussian, t.whitened, t.logWeight, t.best);
+            }
+            sum += t.weight * t.best.cost;
+        }
         return sum;
     }
 
@@ -39,7 +54,8 @@ class ReferenceDivergence {
     struct Term {
         Gaussian<D> gaussian;
         WhitenedGaussian<D> whitened;
-        double weight;
+        double weight, logWeight;
+        typename GoldbergerSearch<D>::Match best;  ///< in the latest level
     };
     std::vector<Term> terms_;
 };
@@ -76,7 +92,7 @@ Mixture<D> mergePass(const Mixture<D>& mixture, double similarity) {
 template <int D>
 Hierarchy<D> generateHierarchy(const Mixture<D>& reference, const HierarchyParams& params) {
     params.validate();
-    const ReferenceDivergence<D> divergence(reference);
+    ReferenceDivergence<D> divergence(reference);
     Hierarchy<D> out;
     std::vector<Mixture<D>>& levels = out.levels;
     levels.push_back(reference);
@@ -84,10 +100,11 @@ Hierarchy<D> generateHierarchy(const Mixture<D>& reference, const HierarchyParam
 
     double similarity = params.similarityStart;
     const auto pass = [&] {
-        Mixture<D> merged = mergePass(levels.back(), similarity);
+        MergeSweep<D> sweep(levels.back(), similarity);
+        Mixture<D> merged = sweep.run();
         const bool smaller = merged.size() < levels.back().size();
         if (smaller) {
-            out.curve.push_back({merged.size(), divergence.to(merged), similarity});
+            out.curve.push_back({merged.size(), divergence.to(merged, sweep), similarity});
             levels.push_back(std::move(merged));
         }
         const bool mayMerge = smaller || params.similarityStep > 0;

@@ -7,8 +7,9 @@ namespace hgmm {
 
 namespace {
 
-constexpr int kMaxDepth = 21;            // bits an axis in a 64-bit Morton code
-constexpr double kFinestCell_m = 1.0 / 128;  // so the tree spans 16 km; beyond, it ends in one block
+constexpr int kMaxDepth = 21;  // bits an axis in a 64-bit Morton code
+constexpr double kFinestCell_m =
+    1.0 / 128;  // so the tree spans 16 km; beyond, it ends in one block
 
 /// Spreads 21 bits so that two zeros follow each.
 std::uint64_t spread(std::uint64_t v) {
@@ -24,9 +25,11 @@ std::uint64_t spread(std::uint64_t v) {
 std::uint64_t mortonOf(const Mixture<3>& base, std::uint32_t i) {
     std::uint64_t code = 0;
     for (int d = 0; d < 3; ++d) {
-        const double cell = std::floor(base.mean[d][i] / kFinestCell_m) + (1 << (kMaxDepth - 1));
+        const double cell =
+            std::floor(base.mean[d][i] / kFinestCell_m) + (1 << (kMaxDepth - 1));
         const double limit = (1 << kMaxDepth) - 1;
-        code |= spread(static_cast<std::uint64_t>(std::clamp(cell, 0.0, limit))) << unsigned(d);
+        code |= spread(static_cast<std::uint64_t>(std::clamp(cell, 0.0, limit)))
+                << unsigned(d);
     }
     return code;
 }
@@ -47,9 +50,11 @@ void LevelBlocks::update(std::uint32_t i) {
     stale_ = true;
 }
 
-bool LevelBlocks::isCurrent(const Block& block, const std::vector<std::uint32_t>& members) const {
+bool LevelBlocks::isCurrent(const Block& block,
+                            const std::vector<std::uint32_t>& members) const {
     return block.members == members &&
-           std::none_of(members.begin(), members.end(), [&](std::uint32_t i) { return changed_[i]; });
+           std::none_of(members.begin(), members.end(),
+                        [&](std::uint32_t i) { return changed_[i]; });
 }
 
 void LevelBlocks::split(const Placed* first, const Placed* last, int depth,
@@ -92,7 +97,8 @@ const std::vector<Mixture<3>>& LevelBlocks::levels(const Mixture<3>& base,
     if (!stale_) return levels_;
     std::vector<Placed> placed;
     placed.reserve(base.size());
-    for (std::uint32_t i = 0; i < base.size(); ++i) placed.push_back({mortonOf(base, i), i});
+    for (std::uint32_t i = 0; i < base.size(); ++i)
+        placed.push_back({mortonOf(base, i), i});
     std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
         return a.morton != b.morton ? a.morton < b.morton : a.component < b.component;
     });

@@ -11,10 +11,10 @@
 
 namespace hgmm {
 
-/// What is computed from the base. A copied or loaded map starts without it; the first reader,
-/// const and possibly one of several threads, builds it.
+/// What is computed from the base. A copied or loaded map starts without it; the first
+/// reader, const and possibly one of several threads, builds it.
 class Map::Derived {
-   public:
+ public:
     const ComponentIndex& index(const Mixture<3>& base) {
         prepare(base);
         return index_;
@@ -35,7 +35,7 @@ class Map::Derived {
 
     std::size_t liveBytes() const { return index_.liveBytes() + blocks_.liveBytes(); }
 
-   private:
+ private:
     void prepare(const Mixture<3>& base) {
         if (ready_.load(std::memory_order_acquire)) return;
         const std::lock_guard<std::mutex> lock(mutex_);
@@ -53,7 +53,9 @@ class Map::Derived {
 namespace {
 
 /// Local frames start on a lattice of whole metres, so that poses relative to it are exact.
-Eigen::Vector3d latticePoint(const Eigen::Vector3d& p) { return p.array().round(); }
+Eigen::Vector3d latticePoint(const Eigen::Vector3d& p) {
+    return p.array().round();
+}
 
 }  // namespace
 
@@ -65,9 +67,14 @@ void MapParams::validate() const {
     hierarchy.validate();
 }
 
-Map::Map(const MapParams& params) : derived_(std::make_unique<Derived>()) { setParams(params); }
+Map::Map(const MapParams& params) : derived_(std::make_unique<Derived>()) {
+    setParams(params);
+}
 Map::Map(const Map& o)
-    : params_(o.params_), origin_(o.origin_), base_(o.base_), derived_(std::make_unique<Derived>()) {}
+    : params_(o.params_),
+      origin_(o.origin_),
+      base_(o.base_),
+      derived_(std::make_unique<Derived>()) {}
 Map::Map(Map&& o) noexcept = default;
 Map& Map::operator=(const Map& o) {
     if (this != &o) *this = Map(o);
@@ -82,7 +89,9 @@ void Map::setParams(const MapParams& params) {
     derived_ = std::make_unique<Derived>();
 }
 
-void Map::clear() { *this = Map(params_); }
+void Map::clear() {
+    *this = Map(params_);
+}
 
 InsertReport Map::insert(const Scan& scan) {
     scan.validate();
@@ -110,7 +119,8 @@ InsertReport Map::insert(const Scan& scan) {
 }
 
 void Map::appendNovel(const Mixture<3>& samples, const Eigen::Vector3d& sensorOrigin) {
-    const InitialMixture initial = initialiseFromCells(samples, sensorOrigin, params_.cells);
+    const InitialMixture initial =
+        initialiseFromCells(samples, sensorOrigin, params_.cells);
     const Mixture<3> reference =
         fitSparse(samples, initial.mixture, initial.neighbourhoods, params_.em).mixture;
     const Hierarchy<3> hierarchy = generateHierarchy(reference, params_.hierarchy);
@@ -150,7 +160,8 @@ bool Map::operator==(const Map& o) const {
     std::vector<double> mine;
     forEachField(params_, [&](const char*, const auto& v) { mine.push_back(double(v)); });
     std::size_t k = 0;
-    forEachField(o.params_, [&](const char*, const auto& v) { sameParams &= mine[k++] == double(v); });
+    forEachField(o.params_,
+                 [&](const char*, const auto& v) { sameParams &= mine[k++] == double(v); });
     return sameParams && origin_ == o.origin_ && base_ == o.base_;
 }
 

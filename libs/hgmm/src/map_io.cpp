@@ -6,7 +6,8 @@
 #include "hgmm/map.h"
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "saved maps are little-endian");
-static_assert(std::numeric_limits<float>::is_iec559 && std::numeric_limits<double>::is_iec559,
+static_assert(std::numeric_limits<float>::is_iec559 &&
+                  std::numeric_limits<double>::is_iec559,
               "saved maps hold IEEE 754 numbers");
 
 namespace hgmm {
@@ -14,9 +15,9 @@ namespace hgmm {
 namespace {
 
 // Layout of version 1:
-//   char[4] "HGMM", u32 version, u64 size of the whole buffer, u64 checksum of what follows,
-//   u32 fields, then each: u8 length, name, f64 value   (MapParams)
-//   f64[3] origin, u64 components, then f32 arrays: support, mean x y z, covariance xx xy xz yy yz zz
+//   char[4] "HGMM", u32 version, u64 size of the whole buffer, u64 checksum of what
+//   follows, u32 fields, then each: u8 length, name, f64 value   (MapParams) f64[3] origin,
+//   u64 components, then f32 arrays: support, mean x y z, covariance xx xy xz yy yz zz
 constexpr char kMagic[4] = {'H', 'G', 'M', 'M'};
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kHeader = 24;
@@ -40,7 +41,7 @@ std::uint64_t checksum(const std::uint8_t* data, std::size_t size) {
 }
 
 class Writer {
-   public:
+ public:
     template <typename T>
     void put(const T& value) {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -55,7 +56,7 @@ class Writer {
 };
 
 class Reader {
-   public:
+ public:
     Reader(const std::uint8_t* data, std::size_t size) : data_(data), left_(size) {}
 
     template <typename T>
@@ -74,7 +75,7 @@ class Reader {
     }
     std::size_t left() const { return left_; }
 
-   private:
+ private:
     const std::uint8_t* data_;
     std::size_t left_;
 };
@@ -125,7 +126,8 @@ MapParams getParams(Reader& in) {
 Mixture<3> getMixture(Reader& in) {
     constexpr std::size_t bytesPerComponent = sizeof(float) * (1 + 3 + Mixture<3>::packed);
     const auto n = in.get<std::uint64_t>();
-    if (n > in.left() / bytesPerComponent) throw FormatError("saved map: it ends too early");
+    if (n > in.left() / bytesPerComponent)
+        throw FormatError("saved map: it ends too early");
     Mixture<3> mixture;
     forEachArray(mixture, [&](std::vector<float>& array) {
         array.resize(n);

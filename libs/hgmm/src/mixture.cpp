@@ -59,7 +59,8 @@ void Mixture<D>::set(std::size_t i, const Gaussian<D>& component) {
 
 template <int D>
 void Mixture<D>::removeSwap(std::size_t i) {
-    if (i >= size()) throw std::out_of_range("Mixture::removeSwap: no component " + std::to_string(i));
+    if (i >= size())
+        throw std::out_of_range("Mixture::removeSwap: no component " + std::to_string(i));
     forEachArray(*this, [i](auto& array) {
         array[i] = array.back();
         array.pop_back();
@@ -95,15 +96,18 @@ double Mixture<D>::totalSupport() const {
 template <int D>
 void Mixture<D>::check() const {
     forEachArray(*this, [this](const auto& array) {
-        if (array.size() != size()) throw std::logic_error("Mixture: arrays differ in length");
+        if (array.size() != size())
+            throw std::logic_error("Mixture: arrays differ in length");
         for (const float v : array)
-            if (!std::isfinite(v)) throw std::logic_error("Mixture: a parameter is not finite");
+            if (!std::isfinite(v))
+                throw std::logic_error("Mixture: a parameter is not finite");
     });
     for (std::size_t i = 0; i < size(); ++i) {
         const std::string name = "Mixture: component " + std::to_string(i);
         if (!(support[i] > 0)) throw std::logic_error(name + " has no support");
         if (!isPositiveDefinite<D>((*this)[i].covariance))
-            throw std::logic_error(name + " has a covariance that is not positive definite");
+            throw std::logic_error(name +
+                                   " has a covariance that is not positive definite");
     }
 }
 

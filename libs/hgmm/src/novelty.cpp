@@ -9,7 +9,8 @@ namespace hgmm {
 
 namespace {
 
-/// Samples handled by one task: fixed, so that results do not depend on the number of threads.
+/// Samples handled by one task: fixed, so that results do not depend on the number of
+/// threads.
 constexpr std::size_t kChunk = 256;
 
 void findNeighbours(const Mixture<3>& samples, std::size_t begin, std::size_t end,
@@ -35,14 +36,15 @@ void NoveltyParams::validate() const {
 
 NoveltySplit splitByNovelty(const Mixture<3>& samples, const ComponentIndex& index,
                             const NoveltyParams& params) {
-    const auto maxSquared = static_cast<float>(params.maxMahalanobis * params.maxMahalanobis);
+    const auto maxSquared =
+        static_cast<float>(params.maxMahalanobis * params.maxMahalanobis);
     const std::size_t chunks = (samples.size() + kChunk - 1) / kChunk;
     std::vector<Neighbourhoods> found(chunks);
 #pragma omp parallel for schedule(dynamic)
     for (std::size_t c = 0; c < chunks; ++c) {
         found[c].begin.push_back(0);
-        findNeighbours(samples, c * kChunk, std::min(samples.size(), (c + 1) * kChunk), index,
-                       maxSquared, found[c]);
+        findNeighbours(samples, c * kChunk, std::min(samples.size(), (c + 1) * kChunk),
+                       index, maxSquared, found[c]);
     }
 
     NoveltySplit split;

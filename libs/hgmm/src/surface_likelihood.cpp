@@ -23,7 +23,8 @@ double SurfaceLikelihood::operator()(float x, float y, float z) const {
     index_.visitCandidates(x, y, z, [&](std::uint32_t j) {
         nearest = std::min(nearest, index_.factor(j).squaredMahalanobis(point));
     });
-    return std::log(outlierRatio_ + (1.0 - outlierRatio_) * std::exp(-0.5 * double(nearest)));
+    return std::log(outlierRatio_ +
+                    (1.0 - outlierRatio_) * std::exp(-0.5 * double(nearest)));
 }
 
 }  // namespace hgmm

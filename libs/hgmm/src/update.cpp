@@ -14,11 +14,11 @@ struct Addition {
     Eigen::Matrix3d sumOuter = Eigen::Matrix3d::Zero();
 };
 
-/// p_ij of eq. (3.19) over a sample's neighbourhood: eq. (3.8) in log space. Supports stand for
-/// the weights pi_j = S_j / N, whose common N cancels.
+/// p_ij of eq. (3.19) over a sample's neighbourhood: eq. (3.8) in log space. Supports stand
+/// for the weights pi_j = S_j / N, whose common N cancels.
 void responsibilities(const Mixture<3>& mixture, const ComponentIndex& index,
-                      const std::uint32_t* first, const std::uint32_t* last, const float* point,
-                      std::vector<double>& p) {
+                      const std::uint32_t* first, const std::uint32_t* last,
+                      const float* point, std::vector<double>& p) {
     p.clear();
     double largest = -std::numeric_limits<double>::infinity();
     for (const std::uint32_t* j = first; j != last; ++j) {
@@ -32,18 +32,19 @@ void responsibilities(const Mixture<3>& mixture, const ComponentIndex& index,
 
 Gaussian<3> updated(const Gaussian<3>& old, const Addition& a) {
     Gaussian<3> g;
-    g.support = old.support + a.support;                            // eq. (3.19)
+    g.support = old.support + a.support;  // eq. (3.19)
     const Eigen::Vector3d shift = a.sum / g.support;
-    g.mean = old.mean + shift;                                      // eq. (3.21)
+    g.mean = old.mean + shift;  // eq. (3.21)
     g.covariance = (old.support * old.covariance + a.sumOuter) / g.support -
-                   shift * shift.transpose();                       // eq. (3.22)
+                   shift * shift.transpose();  // eq. (3.22)
     return g;
 }
 
 }  // namespace
 
 std::vector<std::uint32_t> updateKnown(Mixture<3>& mixture, const ComponentIndex& index,
-                                       const Mixture<3>& samples, const NoveltySplit& split) {
+                                       const Mixture<3>& samples,
+                                       const NoveltySplit& split) {
     std::vector<Addition> additions;
     std::vector<std::uint32_t> changed = split.neighbourhoods.component;
     std::sort(changed.begin(), changed.end());
@@ -60,7 +61,8 @@ std::vector<std::uint32_t> updateKnown(Mixture<3>& mixture, const ComponentIndex
         const std::uint32_t* last = components + split.neighbourhoods.begin[k + 1];
         responsibilities(mixture, index, first, last, point, p);
         for (const std::uint32_t* j = first; j != last; ++j) {
-            const auto slot = std::lower_bound(changed.begin(), changed.end(), *j) - changed.begin();
+            const auto slot =
+                std::lower_bound(changed.begin(), changed.end(), *j) - changed.begin();
             Addition& a = additions[static_cast<std::size_t>(slot)];
             const double support = p[static_cast<std::size_t>(j - first)] * sample.support;
             const Eigen::Vector3d d = sample.mean - mixture[*j].mean;

@@ -37,7 +37,13 @@ void CHGMMOccupancyMap::saveToFile(const std::string& fileName) const {
 }
 
 void CHGMMOccupancyMap::loadFromFile(const std::string& fileName) {
-    *this = bridge::loadMapFile(fileName);
+    // Not an assignment of the whole: observers of this map stay with it.
+    CHGMMOccupancyMap loaded = bridge::loadMapFile(fileName);
+    model() = std::move(loaded.model_);
+    insertionOptions = loaded.insertionOptions;
+    likelihoodOptions = loaded.likelihoodOptions;
+    renderOptions = loaded.renderOptions;
+    genericMapParams = loaded.genericMapParams;
 }
 
 std::string CHGMMOccupancyMap::asString() const {

@@ -4,12 +4,12 @@
 
 namespace hgmm {
 
-/// The first guess of a mixture: moments of the samples in each cell of a voxel grid, thesis
-/// 3.3.4 ("a voxel-grid filter ... indicative of the overestimate for lambda_f").
+/// The first guess of a mixture: moments of the samples in each cell of a voxel grid,
+/// thesis 3.3.4 ("a voxel-grid filter ... indicative of the overestimate for lambda_f").
 struct CellParams {
     double cellPerRange = 0.12;  ///< cell edge per range of the sample [1], > 0
     double minCell_m = 0.04;     ///< smallest cell edge [m], > 0
-    int minSamples = 8;          ///< a cell with fewer joins a cell twice its size [count], >= 1
+    int minSamples = 8;  ///< a cell with fewer joins a cell twice its size [count], >= 1
 
     /// Throws std::invalid_argument naming the field.
     void validate() const;
@@ -21,8 +21,8 @@ struct InitialMixture {
     Neighbourhoods neighbourhoods;  ///< a sample's cell and those touching it
 };
 
-/// Cells follow each sample's own range |sample - sensorOrigin| in octaves. Samples and origin
-/// are in the same frame.
+/// Cells follow each sample's own range |sample - sensorOrigin| in octaves. Samples and
+/// origin are in the same frame.
 InitialMixture initialiseFromCells(const Mixture<3>& samples,
                                    const Eigen::Vector3d& sensorOrigin,
                                    const CellParams& params);

@@ -9,18 +9,19 @@
 
 namespace hgmm {
 
-/// Finds the components near a point at a cost that does not depend on the size of the map, and
-/// keeps them factored for evaluation.
+/// Finds the components near a point at a cost that does not depend on the size of the map,
+/// and keeps them factored for evaluation.
 ///
-/// A hash grid with one level per octave of component size: a component is entered in every cell,
-/// of a size just above its own, that the bounding box of its `sigmas` ellipsoid touches; a query
-/// looks up one cell per level in use.
+/// A hash grid with one level per octave of component size: a component is entered in every
+/// cell, of a size just above its own, that the bounding box of its `sigmas` ellipsoid
+/// touches; a query looks up one cell per level in use.
 class ComponentIndex {
-   public:
+ public:
     using Factor = WhitenedGaussian<3, float>;
 
     /// @param sigmas size of the indexed ellipsoids [sigma], > 0
-    /// @param inflationStd_m isotropic standard deviation added to every component [m], >= 0
+    /// @param inflationStd_m isotropic standard deviation added to every component [m], >=
+    /// 0
     explicit ComponentIndex(float sigmas = kSigmas, float inflationStd_m = 0.F)
         : sigmas_(sigmas), inflationVariance_(inflationStd_m * inflationStd_m) {}
 
@@ -37,15 +38,15 @@ class ComponentIndex {
     std::size_t size() const { return factors_.size(); }
     const Factor& factor(std::uint32_t i) const { return factors_[i]; }
 
-    /// Calls visit(i) for each component whose ellipsoid's box may hold (x, y, z), each once, in
-    /// a fixed order.
+    /// Calls visit(i) for each component whose ellipsoid's box may hold (x, y, z), each
+    /// once, in a fixed order.
     template <typename Visitor>
     void visitCandidates(float x, float y, float z, Visitor&& visit) const;
 
     /// Heap held [bytes].
     std::size_t liveBytes() const;
 
-   private:
+ private:
     struct Placement {
         std::int8_t octave = 0;
         std::array<std::int32_t, 3> low{}, high{};
@@ -79,7 +80,8 @@ void ComponentIndex::visitCandidates(float x, float y, float z, Visitor&& visit)
         const Cells& cells = levels_[level];
         if (cells.empty()) continue;
         const int octave = level + kMinOctave;
-        const auto cell = cells.find(key(cellOf(x, octave), cellOf(y, octave), cellOf(z, octave)));
+        const auto cell =
+            cells.find(key(cellOf(x, octave), cellOf(y, octave), cellOf(z, octave)));
         if (cell == cells.end()) continue;
         for (const std::uint32_t i : cell->second) visit(i);
     }

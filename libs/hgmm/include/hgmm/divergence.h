@@ -10,19 +10,21 @@ double klDivergence(const Gaussian<D>& f, const Gaussian<D>& g);
 
 /// The same with both factored beforehand; `fCovariance` is f's covariance.
 template <int D>
-double klDivergence(const WhitenedGaussian<D>& f, const typename Gaussian<D>::Matrix& fCovariance,
+double klDivergence(const WhitenedGaussian<D>& f,
+                    const typename Gaussian<D>::Matrix& fCovariance,
                     const WhitenedGaussian<D>& g);
 
-/// Goldberger's approximation of KL(p || q) between mixtures [nat]: thesis eq. (3.15), after
-/// Goldberger, Gordon and Greenspan, ICCV 2003. It is not exact
-/// (components that overlap are told apart), and below zero where q's fewer components carry more
-/// weight than those of p that they stand for. Throws std::invalid_argument if one is empty.
+/// Goldberger's approximation of KL(p || q) between mixtures [nat]: thesis eq. (3.15),
+/// after Goldberger, Gordon and Greenspan, ICCV 2003. It is not exact (components that
+/// overlap are told apart), and below zero where q's fewer components carry more weight
+/// than those of p that they stand for. Throws std::invalid_argument if one is empty.
 template <int D>
 double klDivergence(const Mixture<D>& p, const Mixture<D>& q);
 
-/// Cauchy-Schwarz divergence between mixtures [nat], >= 0, symmetric, in closed form. This is
-/// the derivation of thesis eq. (3.18), whose printed form is garbled:
-///   -log <p,q> + 1/2 log <p,p> + 1/2 log <q,q>,  <p,q> = sum_mk pi_m tau_k N(mu_m | nu_k, S_m + S_k)
+/// Cauchy-Schwarz divergence between mixtures [nat], >= 0, symmetric, in closed form. This
+/// is the derivation of thesis eq. (3.18), whose printed form is garbled:
+///   -log <p,q> + 1/2 log <p,p> + 1/2 log <q,q>,  <p,q> = sum_mk pi_m tau_k N(mu_m | nu_k,
+///   S_m + S_k)
 /// It is half of eq. (3.17). Throws std::invalid_argument if one is empty.
 template <int D>
 double cauchySchwarzDivergence(const Mixture<D>& p, const Mixture<D>& q);

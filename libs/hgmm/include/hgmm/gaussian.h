@@ -8,16 +8,16 @@ namespace hgmm {
 
 constexpr double kLogTwoPi = 1.8378770664093454836;
 
-/// A Gaussian made ready for evaluation: its mean and the inverse W of its Cholesky factor, so
-/// that the squared Mahalanobis distance is |W (x - mean)|^2 and neither an inverse nor a
-/// determinant is formed (Sigma = L L^T, W = L^-1, log|Sigma|^(-1/2) = sum log W_kk).
+/// A Gaussian made ready for evaluation: its mean and the inverse W of its Cholesky factor,
+/// so that the squared Mahalanobis distance is |W (x - mean)|^2 and neither an inverse nor
+/// a determinant is formed (Sigma = L L^T, W = L^-1, log|Sigma|^(-1/2) = sum log W_kk).
 template <int D, typename Scalar = double>
 class WhitenedGaussian {
-   public:
+ public:
     WhitenedGaussian() = default;
 
-    /// Factors a covariance. One that is not positive definite (rounding, or degenerate input)
-    /// has its pivots raised to `minVariance`, so that the result is always finite.
+    /// Factors a covariance. One that is not positive definite (rounding, or degenerate
+    /// input) has its pivots raised to `minVariance`, so that the result is always finite.
     explicit WhitenedGaussian(const Gaussian<D>& g, double minVariance = 1e-12);
 
     /// (x - mu)^T Sigma^-1 (x - mu), >= 0.
@@ -44,19 +44,22 @@ class WhitenedGaussian {
         for (int row = 0; row < D; ++row)
             for (int a = 0; a <= row; ++a)
                 for (int b = 0; b <= row; ++b)
-                    trace += factor_[lower(row, a)] * factor_[lower(row, b)] * Scalar(C(a, b));
+                    trace +=
+                        factor_[lower(row, a)] * factor_[lower(row, b)] * Scalar(C(a, b));
         return trace;
     }
 
     /// log of the density at the mean [nat].
     Scalar logNormalizer() const { return logNormalizer_; }
     /// log |Sigma| [nat].
-    Scalar logDeterminant() const { return Scalar(-2) * logNormalizer_ - Scalar(D * kLogTwoPi); }
+    Scalar logDeterminant() const {
+        return Scalar(-2) * logNormalizer_ - Scalar(D * kLogTwoPi);
+    }
     Scalar mean(int axis) const { return mean_[axis]; }
     /// Entry of W, row >= col.
     Scalar factor(int row, int col) const { return factor_[lower(row, col)]; }
 
-   private:
+ private:
     static constexpr int lower(int row, int col) { return row * (row + 1) / 2 + col; }
 
     std::array<Scalar, D> mean_{};

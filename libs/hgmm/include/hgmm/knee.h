@@ -11,9 +11,10 @@ struct DivergencePoint {
     double similarity = 0.0;  ///< lambda_d of the merge pass that made it [nat]
 };
 
-/// Whether a mixture may be the fidelity threshold of a reference mixture: at least a fifteenth
-/// of its size. Smaller ones are left out of the search for the knee, or the collapse of the
-/// last few components into one would drown it. (A twelfth to a twentieth serve alike.)
+/// Whether a mixture may be the fidelity threshold of a reference mixture: at least a
+/// fifteenth of its size. Smaller ones are left out of the search for the knee, or the
+/// collapse of the last few components into one would drown it. (A twelfth to a twentieth
+/// serve alike.)
 bool isFidelityCandidate(const DivergencePoint& point, const DivergencePoint& reference);
 
 /// Index of the knee of a divergence curve (sizes falling), i.e. the smallest mixture whose

@@ -11,21 +11,23 @@ namespace hgmm {
 
 /// The upper levels of a map, kept up to date block by block.
 ///
-/// Blocks are the leaves of an octree that is split wherever more than kMaxMembers components
-/// lie, so they are small where detail is and large elsewhere. Components are merged (Algorithm
-/// 1, lines 6-16) within their block only: a level depends on the base block by block, and only
-/// the blocks that a scan touched are generated anew. The tree depends on the base alone, not on
-/// how it came about, so the result is that of generating all blocks.
+/// Blocks are the leaves of an octree that is split wherever more than kMaxMembers
+/// components lie, so they are small where detail is and large elsewhere. Components are
+/// merged (Algorithm 1, lines 6-16) within their block only: a level depends on the base
+/// block by block, and only the blocks that a scan touched are generated anew. The tree
+/// depends on the base alone, not on how it came about, so the result is that of generating
+/// all blocks.
 class LevelBlocks {
-   public:
+ public:
     static constexpr std::size_t kMaxMembers = 512;
 
     /// Notes that component i of the base changed, or was added (i is then the next one).
     void update(std::uint32_t i);
 
-    /// Levels 1 .. params.levels - 1 at [0 ..]; regenerates blocks that changed since the last
-    /// call.
-    const std::vector<Mixture<3>>& levels(const Mixture<3>& base, const HierarchyParams& params);
+    /// Levels 1 .. params.levels - 1 at [0 ..]; regenerates blocks that changed since the
+    /// last call.
+    const std::vector<Mixture<3>>& levels(const Mixture<3>& base,
+                                          const HierarchyParams& params);
 
     /// Blocks that the last call of levels() generated anew.
     std::size_t lastRegenerated() const { return lastRegenerated_; }
@@ -33,8 +35,9 @@ class LevelBlocks {
     /// Heap held [bytes].
     std::size_t liveBytes() const;
 
-   private:
-    using Key = std::pair<int, std::uint64_t>;  ///< depth in the octree, Morton code of the node
+ private:
+    using Key =
+        std::pair<int, std::uint64_t>;  ///< depth in the octree, Morton code of the node
     struct Block {
         std::vector<std::uint32_t> members;  ///< base components, rising
         std::vector<Mixture<3>> levels;      ///< from level 1 up
@@ -55,7 +58,8 @@ class LevelBlocks {
     std::size_t lastRegenerated_ = 0;
 };
 
-/// Similarity threshold lambda_d of the pass that makes `level` (>= 1) from the one below [nat].
+/// Similarity threshold lambda_d of the pass that makes `level` (>= 1) from the one below
+/// [nat].
 double similarityOfLevel(const HierarchyParams& params, int level);
 
 }  // namespace hgmm

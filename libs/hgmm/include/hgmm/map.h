@@ -24,18 +24,18 @@ struct InsertReport {
 
 /// A buffer that Map::load cannot use: truncated, corrupt, foreign, or of a newer version.
 class FormatError : public std::runtime_error {
-   public:
+ public:
     using std::runtime_error::runtime_error;
 };
 
-/// A hierarchy of Gaussian mixtures over what range sensors saw (thesis chapter 3), updated scan
-/// by scan.
+/// A hierarchy of Gaussian mixtures over what range sensors saw (thesis chapter 3), updated
+/// scan by scan.
 ///
-/// Components are floats in a local frame whose axes are those of the map and whose origin is
-/// fixed, on a lattice of whole metres, by the first scan; poses and points cross this interface
-/// in double. Const member functions may be called from several threads at once.
+/// Components are floats in a local frame whose axes are those of the map and whose origin
+/// is fixed, on a lattice of whole metres, by the first scan; poses and points cross this
+/// interface in double. Const member functions may be called from several threads at once.
 class Map {
-   public:
+ public:
     /// Throws std::invalid_argument naming the field that is out of range.
     explicit Map(const MapParams& params = {});
     Map(const Map& o);
@@ -49,8 +49,8 @@ class Map {
     void setParams(const MapParams& params);
 
     /// filter -> novelty split -> { known: update | novel: EM, hierarchy, append }.
-    /// Throws std::invalid_argument for a malformed scan (Scan::validate), leaving the map as it
-    /// was; a scan without usable points changes nothing.
+    /// Throws std::invalid_argument for a malformed scan (Scan::validate), leaving the map
+    /// as it was; a scan without usable points changes nothing.
     InsertReport insert(const Scan& scan);
 
     bool empty() const { return base_.empty(); }
@@ -59,18 +59,21 @@ class Map {
     /// Origin of the local frame in the map frame [m].
     const Eigen::Vector3d& origin() const { return origin_; }
     /// Number of levels, base included: params().hierarchy.levels.
-    std::size_t levelCount() const { return static_cast<std::size_t>(params_.hierarchy.levels); }
-    /// Mixture of a level in the local frame; 0 is the base. Upper levels are brought up to date
-    /// here, where the base changed. The reference holds until the next non-const call. Throws
-    /// std::out_of_range for a level that does not exist.
+    std::size_t levelCount() const {
+        return static_cast<std::size_t>(params_.hierarchy.levels);
+    }
+    /// Mixture of a level in the local frame; 0 is the base. Upper levels are brought up to
+    /// date here, where the base changed. The reference holds until the next non-const
+    /// call. Throws std::out_of_range for a level that does not exist.
     const Mixture<3>& mixture(std::size_t level = 0) const;
 
-    /// log p(point) under the base level [nat], components farther than ComponentIndex::kSigmas
-    /// left out: -infinity where there are none within. Throws nothing.
+    /// log p(point) under the base level [nat], components farther than
+    /// ComponentIndex::kSigmas left out: -infinity where there are none within. Throws
+    /// nothing.
     double logDensity(const Eigen::Vector3d& point_map) const;
 
-    /// Versioned, little-endian, self-describing; parameters included. Derived data (index, upper
-    /// levels) is left out and rebuilt when first needed.
+    /// Versioned, little-endian, self-describing; parameters included. Derived data (index,
+    /// upper levels) is left out and rebuilt when first needed.
     std::vector<std::uint8_t> save() const;
     /// Throws FormatError.
     static Map load(const std::uint8_t* data, std::size_t size);
@@ -82,7 +85,7 @@ class Map {
     bool operator==(const Map& o) const;
     bool operator!=(const Map& o) const { return !(*this == o); }
 
-   private:
+ private:
     class Derived;  // index and upper levels: rebuilt when first needed, never saved
 
     void appendNovel(const Mixture<3>& samples, const Eigen::Vector3d& sensorOrigin);

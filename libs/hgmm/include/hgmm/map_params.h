@@ -19,9 +19,9 @@ struct MapParams {
     void validate() const;
 };
 
-/// Calls visit(name, member) for every field of `params` (const or not), members being double or
-/// int: the one list of fields for saving, reading configuration files and printing. Names are
-/// unique over all stages and are the keys of configuration files.
+/// Calls visit(name, member) for every field of `params` (const or not), members being
+/// double or int: the one list of fields for saving, reading configuration files and
+/// printing. Names are unique over all stages and are the keys of configuration files.
 template <typename Params, typename Visitor>
 void forEachField(Params& params, Visitor&& visit) {
     visit("leafPerRange", params.filter.leafPerRange);

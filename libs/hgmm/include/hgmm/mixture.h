@@ -8,46 +8,49 @@
 namespace hgmm {
 
 /// Number of distinct entries of a symmetric D x D matrix.
-constexpr int packedSize(int D) { return D * (D + 1) / 2; }
+constexpr int packedSize(int D) {
+    return D * (D + 1) / 2;
+}
 
-/// Place of entry (row, col) of a symmetric matrix in packed form: row-major upper triangle,
-/// (0,0) (0,1) .. (0,D-1) (1,1) .. (D-1,D-1).
+/// Place of entry (row, col) of a symmetric matrix in packed form: row-major upper
+/// triangle, (0,0) (0,1) .. (0,D-1) (1,1) .. (D-1,D-1).
 constexpr int packedIndex(int D, int row, int col) {
     return row <= col ? row * D - row * (row - 1) / 2 + (col - row)
                       : packedIndex(D, col, row);
 }
 
-/// One Gaussian component, or one measured sample, with its support. This is the form in which
-/// single components travel; sets of them are stored as Mixture.
+/// One Gaussian component, or one measured sample, with its support. This is the form in
+/// which single components travel; sets of them are stored as Mixture.
 template <int D>
 struct Gaussian {
     // Unaligned, so that D = 2 and 4 cross library borders whatever the caller's CPU flags.
     using Vector = Eigen::Matrix<double, D, 1, Eigen::DontAlign>;
     using Matrix = Eigen::Matrix<double, D, D, Eigen::DontAlign>;
 
-    double support = 0.0;                 ///< S_pi, measurements explained [count], > 0
-    Vector mean = Vector::Zero();         ///< mu
-    Matrix covariance = Matrix::Zero();   ///< Sigma, symmetric positive semi-definite
+    double support = 0.0;                ///< S_pi, measurements explained [count], > 0
+    Vector mean = Vector::Zero();        ///< mu
+    Matrix covariance = Matrix::Zero();  ///< Sigma, symmetric positive semi-definite
 };
 
-/// A mixture of D-dimensional Gaussians (thesis 3.1.1), stored as a structure of arrays: one
-/// contiguous array of floats per parameter, so that kernels stream through what they need.
+/// A mixture of D-dimensional Gaussians (thesis 3.1.1), stored as a structure of arrays:
+/// one contiguous array of floats per parameter, so that kernels stream through what they
+/// need.
 ///
-/// Weights are not stored. A component carries its support S_pi = N pi (thesis 3.3.3) and its
-/// weight is support / totalSupport(), so that joining two mixtures by thesis eq. (3.23) is
-/// concatenation.
+/// Weights are not stored. A component carries its support S_pi = N pi (thesis 3.3.3) and
+/// its weight is support / totalSupport(), so that joining two mixtures by thesis eq.
+/// (3.23) is concatenation.
 ///
-/// The same type holds measured samples: there, support counts the raw points behind a sample,
-/// mean is their centroid and covariance their scatter plus the sensor's noise.
+/// The same type holds measured samples: there, support counts the raw points behind a
+/// sample, mean is their centroid and covariance their scatter plus the sensor's noise.
 template <int D>
 class Mixture {
-   public:
+ public:
     static constexpr int dimension = D;
     static constexpr int packed = packedSize(D);
 
-    std::vector<float> support;                        ///< [count], > 0
-    std::array<std::vector<float>, D> mean;            ///< [m] for spatial axes, local frame
-    std::array<std::vector<float>, packed> covariance; ///< packed (packedIndex), [m^2]
+    std::vector<float> support;              ///< [count], > 0
+    std::array<std::vector<float>, D> mean;  ///< [m] for spatial axes, local frame
+    std::array<std::vector<float>, packed> covariance;  ///< packed (packedIndex), [m^2]
 
     std::size_t size() const { return support.size(); }
     bool empty() const { return support.empty(); }
@@ -70,8 +73,9 @@ class Mixture {
     /// pi_i = support_i / total, in [0, 1]. Pass totalSupport() once per loop.
     double weight(std::size_t i, double total) const { return support[i] / total; }
 
-    /// Throws std::logic_error if array lengths differ, a number is not finite, a support is not
-    /// positive or a covariance is not positive definite. For tests and debug builds.
+    /// Throws std::logic_error if array lengths differ, a number is not finite, a support
+    /// is not positive or a covariance is not positive definite. For tests and debug
+    /// builds.
     void check() const;
 
     bool operator==(const Mixture& o) const {

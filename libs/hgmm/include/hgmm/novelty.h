@@ -11,9 +11,9 @@ namespace hgmm {
 
 /// Splits samples into known and novel (thesis 3.3.3).
 ///
-/// The thesis thresholds the log-likelihood of the weighted mixture at lambda_n = -10.5; weights
-/// shrink as a map grows, so that threshold drifts. Here it is local: a sample is known if it
-/// lies within `maxMahalanobis` of one component, whatever else the map holds.
+/// The thesis thresholds the log-likelihood of the weighted mixture at lambda_n = -10.5;
+/// weights shrink as a map grows, so that threshold drifts. Here it is local: a sample is
+/// known if it lies within `maxMahalanobis` of one component, whatever else the map holds.
 struct NoveltyParams {
     double maxMahalanobis = 3.0;  ///< [sigma], in (0, 4]
 

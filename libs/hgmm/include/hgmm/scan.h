@@ -30,9 +30,9 @@ struct Scan {
     std::size_t size() const { return x.size(); }
     void reserve(std::size_t n);
     void pushBack(float px, float py, float pz);
-    /// Throws std::invalid_argument if x, y, z or a channel differ in length, or the pose is not
-    /// finite or its rotation not orthonormal to 1e-4. Points need not be finite: the filter
-    /// counts and drops those that are not.
+    /// Throws std::invalid_argument if x, y, z or a channel differ in length, or the pose
+    /// is not finite or its rotation not orthonormal to 1e-4. Points need not be finite:
+    /// the filter counts and drops those that are not.
     void validate() const;
 };
 

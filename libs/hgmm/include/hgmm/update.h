@@ -11,6 +11,7 @@ namespace hgmm {
 /// responsibilities (3.8) over each sample's neighbourhood. Sums are taken about each
 /// component's old mean, in sample order. Returns the changed components, rising.
 std::vector<std::uint32_t> updateKnown(Mixture<3>& mixture, const ComponentIndex& index,
-                                       const Mixture<3>& samples, const NoveltySplit& split);
+                                       const Mixture<3>& samples,
+                                       const NoveltySplit& split);
 
 }  // namespace hgmm
