@@ -13,7 +13,7 @@ namespace hgmm {
 namespace {
 
 /// A cell too empty to be a component joins its parent at most this often.
-constexpr int kMaxPromotions = 3;
+constexpr int kMaxPromotions = 2;
 
 /// Samples see components up to this distance in the E-step [sigma]: the far corner of a
 /// touching cell of evenly spread samples lies at 3 sqrt(3) = 5.2.

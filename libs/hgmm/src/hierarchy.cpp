@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "goldberger.h"
+#include "hgmm/require.h"
 #include "merge_sweep.h"
 
 namespace hgmm {
@@ -82,11 +83,27 @@ void HierarchyParams::validate() const {
     if (!(similarityStep >= 0) || std::isinf(similarityStep))
         throw std::invalid_argument(
             "HierarchyParams::similarityStep must be finite and not negative");
+    requireInRange("similarityMax", similarityMax, 1e-6, kLargestSimilarity);
+    requireInRange("levelRatio", levelRatio, 0.01, 0.99);
 }
 
 template <int D>
 Mixture<D> mergePass(const Mixture<D>& mixture, double similarity) {
     return MergeSweep<D>(mixture, similarity).run();
+}
+
+template <int D>
+Mixture<D> mergeToSize(const Mixture<D>& mixture, std::size_t size,
+                       const HierarchyParams& params) {
+    Mixture<D> level = mixture;
+    double similarity = params.similarityStart;
+    while (level.size() > size && similarity < kLargestSimilarity) {
+        level = mergePass(level, similarity);
+        const double next = raised(similarity, params.similarityStep);
+        if (next == similarity) break;
+        similarity = next;
+    }
+    return level;
 }
 
 template <int D>
@@ -114,6 +131,7 @@ Hierarchy<D> generateHierarchy(const Mixture<D>& reference, const HierarchyParam
     bool more = reference.size() > 1;
     while (more && !kneeIsKnown(out.curve)) more = pass();
     out.knee = findKnee(out.curve);
+    while (out.curve[out.knee].similarity > params.similarityMax) --out.knee;
     const std::size_t wanted = out.knee + static_cast<std::size_t>(params.levels);
     while (more && levels.size() < wanted) more = pass();
 
@@ -123,8 +141,11 @@ Hierarchy<D> generateHierarchy(const Mixture<D>& reference, const HierarchyParam
 }
 
 template Mixture<2> mergePass(const Mixture<2>&, double);
+template Mixture<2> mergeToSize(const Mixture<2>&, std::size_t, const HierarchyParams&);
 template Mixture<3> mergePass(const Mixture<3>&, double);
+template Mixture<3> mergeToSize(const Mixture<3>&, std::size_t, const HierarchyParams&);
 template Mixture<4> mergePass(const Mixture<4>&, double);
+template Mixture<4> mergeToSize(const Mixture<4>&, std::size_t, const HierarchyParams&);
 template Hierarchy<2> generateHierarchy(const Mixture<2>&, const HierarchyParams&);
 template Hierarchy<3> generateHierarchy(const Mixture<3>&, const HierarchyParams&);
 template Hierarchy<4> generateHierarchy(const Mixture<4>&, const HierarchyParams&);

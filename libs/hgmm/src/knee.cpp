@@ -51,7 +51,7 @@ BrokenLine fitBrokenLine(const DivergencePoint* curve, std::size_t n, std::size_
 }  // namespace
 
 bool isFidelityCandidate(const DivergencePoint& point, const DivergencePoint& reference) {
-    return 15 * point.size >= reference.size;
+    return 12 * point.size >= reference.size;
 }
 
 std::size_t findKnee(const std::vector<DivergencePoint>& curve) {

@@ -40,10 +40,6 @@ std::size_t bytesOf(const Mixture<3>& m) {
 
 }  // namespace
 
-double similarityOfLevel(const HierarchyParams& params, int level) {
-    return params.similarityStart + params.similarityStep * (level - 1);
-}
-
 void LevelBlocks::update(std::uint32_t i) {
     if (i >= changed_.size()) changed_.resize(i + 1);
     changed_[i] = true;
@@ -85,7 +81,9 @@ void LevelBlocks::split(const Placed* first, const Placed* last, int depth,
     Mixture<3> level;
     for (const std::uint32_t i : block.members) level.pushBack(base[i]);
     for (int l = 1; l < params.levels; ++l) {
-        level = mergePass(level, similarityOfLevel(params, l));
+        const auto size =
+            static_cast<std::size_t>(params.levelRatio * double(level.size()));
+        level = mergeToSize(level, std::max<std::size_t>(size, 1), params);
         block.levels.push_back(level);
     }
     fresh.emplace(key, std::move(block));

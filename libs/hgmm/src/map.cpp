@@ -20,6 +20,11 @@ class Map::Derived {
         return index_;
     }
 
+    double logTotalSupport(const Mixture<3>& base) {
+        prepare(base);
+        return logTotal_;
+    }
+
     const Mixture<3>& level(const Mixture<3>& base, const HierarchyParams& params,
                             std::size_t level) {
         prepare(base);
@@ -27,10 +32,13 @@ class Map::Derived {
         return blocks_.levels(base, params)[level - 1];
     }
 
-    /// Follows a change of component i or its addition. Not for concurrent use.
-    void update(const Mixture<3>& base, std::uint32_t i) {
-        index_.update(base, i);
-        blocks_.update(i);
+    /// Follows changes of components, and additions, which come last. Not for concurrent
+    /// use.
+    void update(const Mixture<3>& base, const std::vector<std::uint32_t>& changed) {
+        for (const std::uint32_t i : changed) update(base, i);
+        while (index_.size() < base.size())
+            update(base, static_cast<std::uint32_t>(index_.size()));
+        logTotal_ = std::log(base.totalSupport());
     }
 
     std::size_t liveBytes() const { return index_.liveBytes() + blocks_.liveBytes(); }
@@ -40,14 +48,20 @@ class Map::Derived {
         if (ready_.load(std::memory_order_acquire)) return;
         const std::lock_guard<std::mutex> lock(mutex_);
         if (ready_.load(std::memory_order_relaxed)) return;
-        for (std::uint32_t i = 0; i < base.size(); ++i) update(base, i);
+        update(base, std::vector<std::uint32_t>());
         ready_.store(true, std::memory_order_release);
+    }
+
+    void update(const Mixture<3>& base, std::uint32_t i) {
+        index_.update(base, i);
+        blocks_.update(i);
     }
 
     std::atomic<bool> ready_{false};
     std::mutex mutex_;
     ComponentIndex index_;
     LevelBlocks blocks_;
+    double logTotal_ = 0;
 };
 
 namespace {
@@ -55,6 +69,15 @@ namespace {
 /// Local frames start on a lattice of whole metres, so that poses relative to it are exact.
 Eigen::Vector3d latticePoint(const Eigen::Vector3d& p) {
     return p.array().round();
+}
+
+/// EM from an overestimate, then Algorithm 1 down to the fidelity threshold.
+Mixture<3> novelComponents(const Mixture<3>& samples, const Eigen::Vector3d& sensorOrigin,
+                           const MapParams& params) {
+    const InitialMixture initial = initialiseFromCells(samples, sensorOrigin, params.cells);
+    const Mixture<3> reference =
+        fitSparse(samples, initial.mixture, initial.neighbourhoods, params.em).mixture;
+    return generateHierarchy(reference, params.hierarchy).levels.front();
 }
 
 }  // namespace
@@ -107,27 +130,17 @@ InsertReport Map::insert(const Scan& scan) {
     const ComponentIndex& index = derived_->index(base_);
     const NoveltySplit split = splitByNovelty(samples, index, params_.novelty);
     const std::vector<std::uint32_t> changed = updateKnown(base_, index, samples, split);
-    for (const std::uint32_t i : changed) derived_->update(base_, i);
 
     const std::size_t before = base_.size();
-    if (!split.novel.empty()) appendNovel(selected(samples, split.novel), T_local_sensor.t);
+    if (!split.novel.empty())
+        base_.append(
+            novelComponents(selected(samples, split.novel), T_local_sensor.t, params_));
+    derived_->update(base_, changed);
 
     report.novelSamples = split.novel.size();
     report.componentsUpdated = changed.size();
     report.componentsAdded = base_.size() - before;
     return report;
-}
-
-void Map::appendNovel(const Mixture<3>& samples, const Eigen::Vector3d& sensorOrigin) {
-    const InitialMixture initial =
-        initialiseFromCells(samples, sensorOrigin, params_.cells);
-    const Mixture<3> reference =
-        fitSparse(samples, initial.mixture, initial.neighbourhoods, params_.em).mixture;
-    const Hierarchy<3> hierarchy = generateHierarchy(reference, params_.hierarchy);
-    const std::size_t before = base_.size();
-    base_.append(hierarchy.levels.front());
-    for (std::size_t i = before; i < base_.size(); ++i)
-        derived_->update(base_, static_cast<std::uint32_t>(i));
 }
 
 const Mixture<3>& Map::mixture(std::size_t level) const {
@@ -146,7 +159,7 @@ double Map::logDensity(const Eigen::Vector3d& point_map) const {
         density = logAddExp(density, std::log(double(base_.support[j])) +
                                          double(index.factor(j).logPdf(p.data())));
     });
-    return density - std::log(base_.totalSupport());
+    return density - derived_->logTotalSupport(base_);
 }
 
 std::size_t Map::liveBytes() const {

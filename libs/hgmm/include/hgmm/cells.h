@@ -9,7 +9,7 @@ namespace hgmm {
 struct CellParams {
     double cellPerRange = 0.12;  ///< cell edge per range of the sample [1], > 0
     double minCell_m = 0.04;     ///< smallest cell edge [m], > 0
-    int minSamples = 8;  ///< a cell with fewer joins a cell twice its size [count], >= 1
+    int minSamples = 5;  ///< a cell with fewer joins a cell twice its size [count], >= 1
 
     /// Throws std::invalid_argument naming the field.
     void validate() const;

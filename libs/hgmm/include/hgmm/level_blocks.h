@@ -11,6 +11,9 @@ namespace hgmm {
 
 /// The upper levels of a map, kept up to date block by block.
 ///
+/// Each level has at most params.levelRatio of the components of the one below it, merged
+/// as in Algorithm 1, lines 6-16, with rising lambda_d.
+///
 /// Blocks are the leaves of an octree that is split wherever more than kMaxMembers
 /// components lie, so they are small where detail is and large elsewhere. Components are
 /// merged (Algorithm 1, lines 6-16) within their block only: a level depends on the base
@@ -57,9 +60,5 @@ class LevelBlocks {
     bool stale_ = true;
     std::size_t lastRegenerated_ = 0;
 };
-
-/// Similarity threshold lambda_d of the pass that makes `level` (>= 1) from the one below
-/// [nat].
-double similarityOfLevel(const HierarchyParams& params, int level);
 
 }  // namespace hgmm

@@ -88,8 +88,6 @@ class Map {
  private:
     class Derived;  // index and upper levels: rebuilt when first needed, never saved
 
-    void appendNovel(const Mixture<3>& samples, const Eigen::Vector3d& sensorOrigin);
-
     MapParams params_;
     Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
     Mixture<3> base_;

@@ -39,6 +39,8 @@ void forEachField(Params& params, Visitor&& visit) {
     visit("levels", params.hierarchy.levels);
     visit("similarityStart", params.hierarchy.similarityStart);
     visit("similarityStep", params.hierarchy.similarityStep);
+    visit("similarityMax", params.hierarchy.similarityMax);
+    visit("levelRatio", params.hierarchy.levelRatio);
 }
 
 }  // namespace hgmm
