@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <string>
 
+#include "hgmm/evaluation/render.h"
+
 namespace maptool {
 
 /// `hgmm-map info`: prints levels, size, extent, origin and options of a saved map.
@@ -20,10 +22,11 @@ void sample(const SampleOptions& options);
 
 struct ExportOptions {
     std::string mapFile, output;
-    std::string format;  ///< "ply" or "3Dscene"
+    std::string format;  ///< "ply", "3Dscene" or "png"
     std::size_t level = 0;
     std::size_t pointsPerComponent = 0;  ///< ply: points instead of ellipsoids, if not 0
     std::uint64_t seed = 1;
+    hgmm::evaluation::View view;  ///< png only
 };
 
 /// `hgmm-map export`: ellipsoids at two sigma (or points) of one level, in the map frame.

@@ -70,6 +70,11 @@ void exportMap(const ExportOptions& options) {
     const mrpt::maps::CHGMMOccupancyMap map = loadMap(options.mapFile);
     if (options.format == "ply")
         exportPly(map.model(), options);
+    else if (options.format == "png")
+        hgmm::evaluation::writePng(
+            hgmm::evaluation::renderEllipsoids(
+                levelOf(map.model(), options.level, options.mapFile), options.view),
+            options.output);
     else
         exportScene(map, options);
 }

@@ -6,6 +6,7 @@
 
 #include "fidelity_study.h"
 #include "hgmm/evaluation/metrics_json.h"
+#include "incremental_study.h"
 #include "interrupt.h"
 #include "map_setup.h"
 #include "options.h"
@@ -21,7 +22,10 @@ using namespace hgmm::evaluation;
 enum ExitCode { kDone = 0, kBadInput = 1, kWrongUsage = 2, kInterrupted = 130 };
 
 constexpr const char* kStudies =
-    "fig3.2  estimated size of each scan's mixture, and its divergence as it is reduced\n";
+    "fig3.2       estimated size of each scan's mixture, and its divergence as it is "
+    "reduced\n"
+    "incremental  held-out likelihood of the map against mixtures of as many components\n"
+    "             fitted to all scans at once; needs --split K or --holdout-points F\n";
 
 void defineOptions(CLI::App& app, Options& o, bool& listStudies) {
     app.add_option("LOG", o.log, "Recording to replay (.rawlog)");
@@ -48,13 +52,16 @@ void defineOptions(CLI::App& app, Options& o, bool& listStudies) {
         ->check(CLI::NonNegativeNumber);
     app.add_flag("--quiet", o.quiet, "No progress");
     app.add_option("--study", o.study, "Make a study instead of a map (--list-studies)")
-        ->check(CLI::IsMember({"fig3.2"}));
+        ->check(CLI::IsMember({"fig3.2", "incremental"}));
     app.add_flag("--list-studies", listStudies, "List the studies");
 }
 
 void checkUsage(const Options& o) {
     if (o.log.empty()) throw CLI::RequiredError("LOG");
     if (o.from > o.to) throw CLI::ValidationError("--from", "lies beyond --to");
+    if (o.study == "incremental" && o.split.every == 0 && o.split.holdoutPoints == 0.0)
+        throw CLI::ValidationError("--study incremental",
+                                   "needs test points: --split K or --holdout-points F");
     try {
         o.split.validate();
     } catch (const std::invalid_argument& e) {
@@ -100,13 +107,16 @@ ExitCode run(Options& options) {
     prepareOutputs(options);
     options.threads = useThreads(options.threads);
     RecordingOptions recordingOptions{options.poses, options.from, options.to,
-                                      !options.study.has_value()};
+                                      options.study != "fig3.2"};
     Recording recording(options.log, recordingOptions);
     if (!recording.damage().empty())
         std::fprintf(stderr, "warning: %s\n", recording.damage().c_str());
     catchInterrupts();
     if (!options.study) return makeMapAndReport(recording, options);
-    fidelityStudy(recording, makeMap(options.config)->insertionOptions.params, options);
+    if (options.study == "incremental")
+        incrementalStudy(recording, recordingOptions, options);
+    else
+        fidelityStudy(recording, makeMap(options.config)->insertionOptions.params, options);
     return interrupted() ? kInterrupted : kDone;
 }
 

@@ -43,6 +43,7 @@ double klDivergence(const WhitenedGaussian<D>& f,
                     const WhitenedGaussian<D>& g) {
     std::array<double, D> mean;
     for (int a = 0; a < D; ++a) mean[a] = f.mean(a);
+    // thesis eq. (3.14)
     const double divergence = 0.5 * (g.logDeterminant() - f.logDeterminant() +
                                      g.traceOfPrecisionTimes(fCovariance) +
                                      g.squaredMahalanobis(mean.data()) - D);
@@ -57,7 +58,7 @@ double klDivergence(const Gaussian<D>& f, const Gaussian<D>& g) {
 template <int D>
 double klDivergence(const Mixture<D>& p, const Mixture<D>& q) {
     requireComponents(p, q);
-    const GoldbergerSearch<D> search(q);
+    const GoldbergerSearch<D> search(q);  // for the minimum of thesis eq. (3.15)
     const double total = p.totalSupport();
     double sum = 0;
     for (std::size_t i = 0; i < p.size(); ++i) {

@@ -86,9 +86,10 @@ class Fit {
     Fit(const Mixture<D>& samples, const Mixture<D>& initial,
         const Neighbourhoods& neighbourhoods);
 
-    /// Responsibilities, eq. (3.8); returns the mean expected log-likelihood [nat/point].
+    /// Responsibilities, thesis eq. (3.8); returns the mean expected log-likelihood
+    /// [nat/point].
     double expect();
-    /// Parameters, eq. (3.10)-(3.12).
+    /// Parameters that maximise eq. (3.9): thesis eq. (3.10)-(3.12).
     void maximise();
     Mixture<D> mixture() const;
 
@@ -212,7 +213,7 @@ double Fit<D>::expect() {
     for (std::ptrdiff_t i = 0; i < n; ++i) logLikelihood_[i] = expectSample(i);
     double sum = 0;
     for (std::size_t i = 0; i < samples_.size(); ++i)
-        sum += samples_[i].support * logLikelihood_[i];
+        sum += samples_[i].support * logLikelihood_[i];  // thesis eq. (3.4)
     return sum / total_;
 }
 
@@ -237,15 +238,15 @@ void Fit<D>::maximiseComponent(std::size_t j) {
         component.logWeightedPeak = kNever;
         return;
     }
-    component.gaussian.support = support;
+    component.gaussian.support = support;  // thesis eq. (3.12), times N
     for (int a = 0; a < D; ++a) {
         first[a] /= support;
-        component.gaussian.mean[a] = component.mean[a] + first[a];
+        component.gaussian.mean[a] = component.mean[a] + first[a];  // thesis eq. (3.10)
     }
     for (int a = 0; a < D; ++a)
         for (int b = 0; b < D; ++b)
-            component.gaussian.covariance(a, b) =
-                second[packedIndex(D, a, b)] / support - first[a] * first[b];
+            component.gaussian.covariance(a, b) = second[packedIndex(D, a, b)] / support -
+                                                  first[a] * first[b];  // thesis eq. (3.11)
     prepare(component);
 }
 

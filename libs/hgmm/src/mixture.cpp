@@ -79,7 +79,7 @@ Gaussian<D> Mixture<D>::operator[](std::size_t i) const {
 }
 
 template <int D>
-void Mixture<D>::append(const Mixture& other) {
+void Mixture<D>::append(const Mixture& other) {  // thesis eq. (3.23)
     const auto join = [](std::vector<float>& to, const std::vector<float>& from) {
         to.insert(to.end(), from.begin(), from.end());
     };

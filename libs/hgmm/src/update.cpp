@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "storable.h"
 
 namespace hgmm {
 
@@ -32,12 +35,12 @@ void responsibilities(const Mixture<3>& mixture, const ComponentIndex& index,
 
 Gaussian<3> updated(const Gaussian<3>& old, const Addition& a) {
     Gaussian<3> g;
-    g.support = old.support + a.support;  // eq. (3.19)
+    g.support = old.support + a.support;  // thesis eq. (3.19)
     const Eigen::Vector3d shift = a.sum / g.support;
-    g.mean = old.mean + shift;  // eq. (3.21)
+    g.mean = old.mean + shift;  // thesis eq. (3.21)
     g.covariance = (old.support * old.covariance + a.sumOuter) / g.support -
-                   shift * shift.transpose();  // eq. (3.22)
-    return g;
+                   shift * shift.transpose();  // thesis eq. (3.22)
+    return storable(g);
 }
 
 }  // namespace

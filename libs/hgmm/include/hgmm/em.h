@@ -48,8 +48,9 @@ template <int D>
 EmResult<D> fitSparse(const Mixture<D>& samples, const Mixture<D>& initial,
                       const Neighbourhoods& neighbourhoods, const EmParams& params);
 
-/// log p(x | mixture) of D numbers [nat], over all components; -infinity never leaves: far
-/// from all components the result is the finite log-density of the nearest.
+/// log p(x | mixture), thesis eq. (3.2), of D numbers [nat], over all components; -infinity
+/// never leaves: far from all components the result is the finite log-density of the
+/// nearest.
 template <int D>
 double logDensity(const Mixture<D>& mixture, const double* x);
 

@@ -32,7 +32,7 @@ class WhitenedGaussian {
         return sum;
     }
 
-    /// log N(x | mu, Sigma) [nat].
+    /// log N(x | mu, Sigma) [nat], thesis eq. (3.3).
     Scalar logPdf(const Scalar* x) const {
         return logNormalizer_ - Scalar(0.5) * squaredMahalanobis(x);
     }

@@ -70,7 +70,8 @@ class Mixture {
 
     /// Sum of all supports [count], accumulated in index order.
     double totalSupport() const;
-    /// pi_i = support_i / total, in [0, 1]. Pass totalSupport() once per loop.
+    /// pi_i = support_i / total, in [0, 1], thesis eq. (3.20). Pass totalSupport() once per
+    /// loop.
     double weight(std::size_t i, double total) const { return support[i] / total; }
 
     /// Throws std::logic_error if array lengths differ, a number is not finite, a support
