@@ -11,7 +11,7 @@ namespace hgmm {
 
 /// The upper levels of a map, kept up to date block by block.
 ///
-/// Each level has at most params.levelRatio of the components of the one below it, merged
+/// Each block aims at params.levelRatio of the components of the level below it, merged
 /// as in Algorithm 1, lines 6-16, with rising lambda_d.
 ///
 /// Blocks are the leaves of an octree that is split wherever more than kMaxMembers
