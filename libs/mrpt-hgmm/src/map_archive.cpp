@@ -13,8 +13,8 @@ namespace hgmm::mrpt_bridge {
 
 namespace {
 
-// Layout of version 0: generic map parameters; insertion, likelihood and render options,
-// each as
+// Layout of version 0: u8 flags of the generic map parameters; insertion, likelihood and
+// render options, each as
 //   u8 fields, then each: u8 length, name, f64 value
 // then u64 bytes and the buffer of hgmm::Map::save.
 
@@ -25,6 +25,20 @@ namespace {
 /// CArchive::ReadBuffer reads less, without complaint, where a stream ends.
 void readExactly(CArchive& in, void* data, std::size_t size) {
     if (size > 0 && in.ReadBuffer(data, size) != size) fail("the stream ends too early");
+}
+
+/// MRPT's own stream operator would take any byte of a damaged stream for a bool.
+std::uint8_t flagsOf(const mrpt::maps::TMapGenericParams& p) {
+    return static_cast<std::uint8_t>((p.enableSaveAs3DObject ? 1U : 0U) |
+                                     (p.enableObservationLikelihood ? 2U : 0U) |
+                                     (p.enableObservationInsertion ? 4U : 0U));
+}
+
+void setFlags(std::uint8_t flags, mrpt::maps::TMapGenericParams& p) {
+    if (flags > 7) fail("its generic map parameters are damaged");
+    p.enableSaveAs3DObject = (flags & 1U) != 0;
+    p.enableObservationLikelihood = (flags & 2U) != 0;
+    p.enableObservationInsertion = (flags & 4U) != 0;
 }
 
 template <typename Options>
@@ -75,7 +89,7 @@ std::vector<std::uint8_t> readBuffer(CArchive& in) {
 }  // namespace
 
 void writeMap(CArchive& out, const CHGMMOccupancyMap& map) {
-    out << map.genericMapParams;
+    out << flagsOf(map.genericMapParams);
     writeOptions(out, map.insertionOptions);
     writeOptions(out, map.likelihoodOptions);
     writeOptions(out, map.renderOptions);
@@ -89,7 +103,7 @@ void readMap(CArchive& in, std::uint8_t version, CHGMMOccupancyMap& map) {
         fail("stored in version " + std::to_string(version) +
              ", newer than this program's " + std::to_string(kArchiveVersion));
     mrpt::maps::TMapGenericParams generic;
-    in >> generic;
+    setFlags(in.ReadAs<std::uint8_t>(), generic);
     const auto insertion = readOptions<CHGMMOccupancyMap::TInsertionOptions>(in);
     const auto likelihood = readOptions<CHGMMOccupancyMap::TLikelihoodOptions>(in);
     const auto render = readOptions<CHGMMOccupancyMap::TRenderOptions>(in);
