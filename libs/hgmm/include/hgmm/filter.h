@@ -34,8 +34,8 @@ struct FilterCounts {
 /// Samples in the sensor frame: support = points in the leaf, mean = their centroid,
 /// covariance = their scatter plus the sensor's noise variance (so a leaf with one point is
 /// a Gaussian of the size of the measurement's uncertainty, and later stages need no noise
-/// model of their own). The order is that of each leaf's first point, whatever the number of
-/// threads.
+/// model of their own). The order is that of each leaf's first point, whatever the number
+/// of threads.
 Mixture<3> filterScan(const Scan& scan, const FilterParams& params,
                       FilterCounts* counts = nullptr);
 
