@@ -33,7 +33,7 @@ inline std::string quoted(const std::string& word) {
 /// Runs a command line in `folder`, at most `timeout_s` seconds, without input: some
 /// programs wait for a key after an error.
 inline Result run(const std::string& commandLine, const std::filesystem::path& folder,
-                  int timeout_s = 100, bool withPlugin = true) {
+                  int timeout_s = 300, bool withPlugin = true) {
     const auto log = folder / "stock_app.log";
     std::string environment = "ASAN_OPTIONS=detect_leaks=0 OMP_WAIT_POLICY=passive ";
     if (withPlugin) environment += "LD_PRELOAD=" + quoted(preload()) + " ";
