@@ -6,7 +6,7 @@ set -euo pipefail
 packages=(
     # build
     g++ cmake ninja-build
-    libmrpt-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libnanoflann-dev
+    libmrpt-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libnanoflann-dev liboctomap-dev
     # tests
     libgtest-dev libbenchmark-dev clang-format
     # stock MRPT apps and their data, used by the tests and the demo

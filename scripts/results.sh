@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The README's table: imports the recordings of HGMM_DATA_DIR and replays each with default options.
+# The README's table: imports the recordings of HGMM_DATA_DIR and replays each with default
+# options, an OctoMap beside it. One line per recording and map.
 #   HGMM_DATA_DIR=../shared/data scripts/results.sh
 # Needs a build (scripts/test.sh makes one). Rawlogs and reports go to build/results.
 set -euo pipefail
@@ -17,26 +18,38 @@ import() {
         hgmm-import "$@" -o "$out/$name.rawlog" --poses-out "$out/$name.tum" >"$out/$name.import.log"
 }
 
-# The first number of a key of the pretty-printed metrics.json.
-figure() { sed -n "s/^ *\"$2\": \([-0-9.e]*\),\{0,1\}\$/\1/p" "$out/$1/metrics.json" | head -1; }
+# One line for each map of a pretty-printed metrics.json, which has the figures of a map at six
+# blanks and those of its levels at ten.
+rows() {
+    awk -v recording="$1" '
+        function flush(   kb) {
+            if (name == "") return
+            kb = ("bytes_serialized" in f ? f["bytes_serialized"] : f["bytes_live"]) / 1000
+            if (first == "" && name != "hgmm") first = f["scan_ms_median"]
+            line[++n] = sprintf("| `%s` | %s | %.4f | %.4f | %.3f | %.3f | %.4f | %.4f | %.3f / %.3f / %.3f | %.1f | %.2f |",
+                recording, name, f["auc_uniform"], f["auc_near"], f["balanced_accuracy_near"],
+                f["tpr_at_fpr_5pct"], f["brier"], f["ece"], f["unknown_share_hit"],
+                f["unknown_share_free"], f["unknown_share_near"], kb, f["scan_ms_median"])
+            ms[n] = f["scan_ms_median"]
+            more[n] = ("components_surface" in f) ? sprintf(" %d / %d | %.2f | %.3f |",
+                f["components_surface"], f["components_free"], f["loglik_hit"], f["f1_5cm"]) : " - | - | - |"
+            delete f
+        }
+        /^      "name":/ { flush(); name = $2; gsub(/[",]/, "", name) }
+        /^      "[a-z0-9_]+": [-0-9.e+]+,?$/ { key = $1; gsub(/[":]/, "", key); f[key] = $2 + 0 }
+        END {
+            flush()
+            for (i = 1; i <= n; ++i)
+                printf("%s %s |%s\n", line[i], (first > 0 ? sprintf("%.2f", ms[i] / first) : "-"), more[i])
+        }' "$out/$1/metrics.json"
+}
 
-# Components of all levels, base first.
-levels() { sed -n 's/^ *"components": \([0-9]*\),$/\1/p' "$out/$1/metrics.json" | paste -sd' '; }
-
-row() {
+replay() {
     local name=$1
     shift
     hgmm-replay "$out/$name.rawlog" --poses "$out/$name.tum" --threads 1 --quiet \
         --report "$out/$name" "$@" >"$out/$name.log"
-    awk -v name="$name" -v how="$*" -v levels="$(levels "$name")" \
-        -v kb="$(figure "$name" bytes_serialized)" -v ms="$(figure "$name" scan_ms_median)" \
-        -v first="$(figure "$name" scan_ms_first_tenth)" \
-        -v last="$(figure "$name" scan_ms_last_tenth)" -v nat="$(figure "$name" loglik_hit)" \
-        -v f1="$(figure "$name" f1_5cm)" -v accuracy="$(figure "$name" accuracy_m)" \
-        -v completeness="$(figure "$name" completeness_m)" \
-        'BEGIN { printf "| `%s` | `%s` | %s | %.1f | %.1f (%.1f, %.1f) | %.2f | %.3f | %.1f / %.1f |\n",
-                 name, how, levels, kb / 1024, ms, first, last, nat, f1,
-                 100 * accuracy, 100 * completeness }'
+    rows "$name"
 }
 
 import rgbd_kitchen 7scenes "$data/rgbd_kitchen"
@@ -46,10 +59,10 @@ import lidar16_room_sim pcd "$data/lidar16_room_sim" --poses "$data/lidar16_room
 import sim_structured pcd "$data/la3dm_sim/sim_structured" --world-frame
 import sim_unstructured pcd "$data/la3dm_sim/sim_unstructured" --world-frame
 
-echo '| recording | test points | components per level | KB | ms/scan, median (first, last tenth) | log-likelihood | F1 at 5 cm | accuracy / completeness [cm] |'
-echo '| --- | --- | --- | --- | --- | --- | --- | --- |'
-row rgbd_kitchen --split 10
-row livox_building --split 5
-row lidar16_room_sim --split 4
-row sim_structured --holdout-points 0.2
-row sim_unstructured --holdout-points 0.2
+echo '| recording | map | AUC uniform | AUC near | balanced accuracy | TPR at 5 % FPR | Brier | ECE | unknown: hits / uniform / near | KB | ms/scan | ratio to OctoMap | components surface / free | log-likelihood | F1 at 5 cm |'
+echo '| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |'
+replay rgbd_kitchen --split 10 --baseline octomap:0.05
+replay livox_building --split 5 --baseline octomap:0.3
+replay sim_structured --holdout-points 0.2 --free-band 0,0.2 --baseline octomap:0.15
+replay sim_unstructured --holdout-points 0.2 --free-band 0,0.2 --baseline octomap:0.15
+replay lidar16_room_sim --split 4 --baseline octomap:0.1

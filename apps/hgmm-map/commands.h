@@ -1,9 +1,12 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "hgmm/evaluation/render.h"
+#include "hgmm/mrpt_bridge/render_params.h"
 
 namespace maptool {
 
@@ -20,16 +23,40 @@ struct SampleOptions {
 /// `hgmm-map sample`: draws points from a level into a PLY file.
 void sample(const SampleOptions& options);
 
+struct QueryOptions {
+    std::string mapFile;
+    std::vector<std::string> points;  ///< each "x,y,z" [m]
+    std::string pointsFile;           ///< lines of "x y z" [m], if not empty
+    std::size_t level = 0;
+};
+
+/// `hgmm-map query`: prints, for each point, whether it is occupied, free or unknown, and
+/// how far from the surface.
+void query(const QueryOptions& options);
+
+struct RayOptions {
+    std::string mapFile;
+    std::string from, direction;  ///< "x,y,z"
+    double maxRange_m = 100.0;    ///< [m], > 0
+    std::size_t level = 0;
+};
+
+/// `hgmm-map raycast`: prints the first occupied point along a ray.
+void raycast(const RayOptions& options);
+
 struct ExportOptions {
     std::string mapFile, output;
-    std::string format;  ///< "ply", "3Dscene" or "png"
+    std::string format;  ///< "ply", "3Dscene", "png", "bt", "ot" or "yaml"
     std::size_t level = 0;
     std::size_t pointsPerComponent = 0;  ///< ply: points instead of ellipsoids, if not 0
     std::uint64_t seed = 1;
-    hgmm::evaluation::View view;  ///< png only
+    hgmm::evaluation::View view;             ///< png only
+    hgmm::mrpt_bridge::RenderParams render;  ///< 3Dscene only; level is taken from above
+    double resolution_m = 0.0;               ///< bt, ot, yaml, voxels [m]; 0: derived
+    std::optional<double> height_m;          ///< yaml: of the slice [m], in the map frame
 };
 
-/// `hgmm-map export`: ellipsoids at two sigma (or points) of one level, in the map frame.
+/// `hgmm-map export`: one level in another program's format, in the map frame.
 void exportMap(const ExportOptions& options);
 
 }  // namespace maptool

@@ -8,6 +8,8 @@
 
 #include "commands.h"
 #include "ellipsoid_mesh.h"
+#include "export_octree.h"
+#include "export_slice.h"
 #include "hgmm/evaluation/reconstruction.h"
 #include "load.h"
 
@@ -44,8 +46,9 @@ void exportPly(const hgmm::Map& map, const ExportOptions& options) {
 
 void exportScene(mrpt::maps::CHGMMOccupancyMap map, const ExportOptions& options) {
     const hgmm::Mixture<3>& mixture = levelOf(map.model(), options.level, options.mapFile);
+    static_cast<hgmm::mrpt_bridge::RenderParams&>(map.renderOptions) = options.render;
     map.renderOptions.level = static_cast<int>(options.level);
-    map.renderOptions.sigmas = kSigmas;
+    map.renderOptions.voxelResolution_m = options.resolution_m;
     map.renderOptions.maxEllipsoids = static_cast<int>(
         std::min<std::size_t>(mixture.size(), std::numeric_limits<int>::max()));
     map.genericMapParams.enableSaveAs3DObject = true;
@@ -75,8 +78,12 @@ void exportMap(const ExportOptions& options) {
             hgmm::evaluation::renderEllipsoids(
                 levelOf(map.model(), options.level, options.mapFile), options.view),
             options.output);
-    else
+    else if (options.format == "3Dscene")
         exportScene(map, options);
+    else if (options.format == "yaml")
+        exportSlice(map.model(), options);
+    else
+        exportOctree(map.model(), options);
 }
 
 }  // namespace maptool

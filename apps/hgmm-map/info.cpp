@@ -36,19 +36,21 @@ void info(const std::string& mapFile) {
     const hgmm::Map& map = loaded.model();
     const hgmm::evaluation::Memory memory = hgmm::evaluation::memoryOf(map);
     std::printf("%s\n", mapFile.c_str());
-    std::printf("serialised  %zu bytes, %zu bytes in memory\n", memory.serialized_bytes,
-                memory.live_bytes);
+    std::printf("serialised  %zu bytes, %zu bytes in memory\n",
+                memory.serialized_bytes.value(), memory.live_bytes);
     if (map.empty()) {
         std::printf("the map is empty\n");
     } else {
-        std::printf("origin      %.0f %.0f %.0f m\n", map.origin().x(), map.origin().y(),
-                    map.origin().z());
+        std::printf("origin      %.0f %.0f %.0f m\n", map.origin().x() + 0.0,
+                    map.origin().y() + 0.0,
+                    map.origin().z() + 0.0);  // -0 is printed as such
         printExtent(map);
         std::printf("points      %.0f\n", map.mixture().totalSupport());
-        std::printf("level  components       bytes\n");
+        std::printf("level     surface        free       bytes\n");
         for (std::size_t level = 0; level < map.levelCount(); ++level)
-            std::printf("%5zu  %10zu  %10zu\n", level, map.mixture(level).size(),
-                        hgmm::evaluation::parameterBytes(map.mixture(level)));
+            std::printf("%5zu  %10zu  %10zu  %10zu\n", level, map.mixture(level).size(),
+                        map.freeMixture(level).size(),
+                        hgmm::evaluation::levelBytes(map, level));
     }
     std::printf("options\n");
     hgmm::forEachField(map.params(), [](const char* name, auto value) {

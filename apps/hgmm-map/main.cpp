@@ -3,40 +3,56 @@
 #include <exception>
 
 #include "commands.h"
+#include "export_command.h"
 
 namespace {
 
 enum ExitCode { kDone = 0, kBadInput = 1, kWrongUsage = 2 };
 
-CLI::App* defineExport(CLI::App& app, maptool::ExportOptions& exporting) {
-    CLI::App* exports = app.add_subcommand("export", "Write the map in another format");
-    exports->add_option("MAP", exporting.mapFile, "Saved map")->required();
-    exports
-        ->add_option("--format", exporting.format,
-                     "ply: ellipsoids or points; 3Dscene: MRPT; png: a picture")
+void addMapAndLevel(CLI::App& command, std::string& mapFile, std::size_t& level) {
+    command.add_option("MAP", mapFile, "Saved map")->required();
+    command.add_option("--level", level, "Level of the hierarchy, 0 = finest")
+        ->check(CLI::NonNegativeNumber);
+}
+
+CLI::App* defineSample(CLI::App& app, maptool::SampleOptions& sampling) {
+    CLI::App* sample = app.add_subcommand("sample", "Draw points from the map into a .ply");
+    addMapAndLevel(*sample, sampling.mapFile, sampling.level);
+    sample->add_option("-n", sampling.points, "Number of points")
         ->required()
-        ->check(CLI::IsMember({"ply", "3Dscene", "png"}));
-    exports->add_option("--level", exporting.level, "Level of the hierarchy, 0 = finest")
         ->check(CLI::NonNegativeNumber);
-    auto* points = exports->add_option(
-        "--points-per-component", exporting.pointsPerComponent,
-        "ply: so many points of each component instead of its ellipsoid");
-    points->check(CLI::PositiveNumber);
-    exports->add_option("--seed", exporting.seed, "Seed of the points")
+    sample->add_option("--seed", sampling.seed, "Seed of the random numbers")
         ->check(CLI::NonNegativeNumber);
-    exports->add_option("--yaw", exporting.view.yaw_deg,
-                        "png: viewing direction about z [deg]");
-    exports->add_option("--pitch", exporting.view.pitch_deg,
-                        "png: how far it points down [deg]");
-    exports->add_option("--cut", exporting.view.cut,
-                        "png: share of the depth, from the viewer on, left out");
-    exports->add_option("-o", exporting.output, "Output file")->required();
-    exports->callback([&exporting, points] {
-        if (exporting.format != "ply" && points->count() > 0)
-            throw CLI::ValidationError("--points-per-component",
-                                       "is for --format ply only");
+    sample->add_option("-o", sampling.output, "Output file")->required();
+    return sample;
+}
+
+CLI::App* defineQuery(CLI::App& app, maptool::QueryOptions& querying) {
+    CLI::App* query = app.add_subcommand(
+        "query", "Ask whether points are occupied, free or unknown, and how surely");
+    addMapAndLevel(*query, querying.mapFile, querying.level);
+    CLI::Option* points =
+        query->add_option("POINT", querying.points, "Points x,y,z [m], in the map frame");
+    CLI::Option* file = query->add_option("--points", querying.pointsFile,
+                                          "File with a line x y z [m] for each point");
+    query->callback([points, file] {
+        if (points->count() + file->count() == 0)
+            throw CLI::ValidationError("query", "needs points x,y,z or --points FILE");
     });
-    return exports;
+    return query;
+}
+
+CLI::App* defineRaycast(CLI::App& app, maptool::RayOptions& casting) {
+    CLI::App* raycast =
+        app.add_subcommand("raycast", "Find the first occupied point along a ray");
+    addMapAndLevel(*raycast, casting.mapFile, casting.level);
+    raycast->add_option("--from", casting.from, "Start x,y,z [m]")->required();
+    raycast->add_option("--to-direction", casting.direction, "Direction x,y,z, any length")
+        ->required();
+    raycast->add_option("--max-range", casting.maxRange_m, "Where to give up [m]")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    return raycast;
 }
 
 }  // namespace
@@ -49,21 +65,14 @@ int main(int argc, char** argv) {
     std::string infoFile;
     CLI::App* info = app.add_subcommand("info", "Levels, size, extent, origin and options");
     info->add_option("MAP", infoFile, "Saved map")->required();
-
     maptool::SampleOptions sampling;
-    CLI::App* sample = app.add_subcommand("sample", "Draw points from the map into a .ply");
-    sample->add_option("MAP", sampling.mapFile, "Saved map")->required();
-    sample->add_option("-n", sampling.points, "Number of points")
-        ->required()
-        ->check(CLI::NonNegativeNumber);
-    sample->add_option("--seed", sampling.seed, "Seed of the random numbers")
-        ->check(CLI::NonNegativeNumber);
-    sample->add_option("--level", sampling.level, "Level of the hierarchy, 0 = finest")
-        ->check(CLI::NonNegativeNumber);
-    sample->add_option("-o", sampling.output, "Output file")->required();
-
+    const CLI::App* sample = defineSample(app, sampling);
+    maptool::QueryOptions querying;
+    const CLI::App* query = defineQuery(app, querying);
+    maptool::RayOptions casting;
+    const CLI::App* raycast = defineRaycast(app, casting);
     maptool::ExportOptions exporting;
-    CLI::App* exports = defineExport(app, exporting);
+    const CLI::App* exports = maptool::defineExport(app, exporting);
 
     try {
         app.parse(argc, argv);
@@ -73,6 +82,8 @@ int main(int argc, char** argv) {
     try {
         if (*info) maptool::info(infoFile);
         if (*sample) maptool::sample(sampling);
+        if (*query) maptool::query(querying);
+        if (*raycast) maptool::raycast(casting);
         if (*exports) maptool::exportMap(exporting);
     } catch (const std::exception& e) {
         std::fprintf(stderr, "hgmm-map: %s\n", e.what());

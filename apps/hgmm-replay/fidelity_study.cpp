@@ -26,7 +26,7 @@ hgmm::InitialMixture overestimate(const hgmm::Mixture<3>& samples, hgmm::CellPar
     cells.minCell_m = std::min(cells.minCell_m, 0.01);
     for (int step = 0; step < 24 && (best.mixture.empty() || error(best) > 0.0); ++step) {
         const double middle = 0.5 * (low + high);
-        cells.cellPerRange = std::exp(middle);
+        cells.cellAtOneMetre_m = std::exp(middle);
         hgmm::InitialMixture guess =
             hgmm::initialiseFromCells(samples, Eigen::Vector3d::Zero(), cells);
         (guess.mixture.size() > kOverestimate ? low : high) = middle;

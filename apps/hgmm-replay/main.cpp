@@ -5,12 +5,14 @@
 #include <stdexcept>
 
 #include "fidelity_study.h"
-#include "hgmm/evaluation/metrics_json.h"
 #include "incremental_study.h"
 #include "interrupt.h"
 #include "map_setup.h"
+#include "occupancy_options.h"
 #include "options.h"
+#include "regression_study.h"
 #include "replay_scans.h"
+#include "report.h"
 #include "table.h"
 #include "threads.h"
 
@@ -25,7 +27,8 @@ constexpr const char* kStudies =
     "fig3.2       estimated size of each scan's mixture, and its divergence as it is "
     "reduced\n"
     "incremental  held-out likelihood of the map against mixtures of as many components\n"
-    "             fitted to all scans at once; needs --split K or --holdout-points F\n";
+    "             fitted to all scans at once; needs --split K or --holdout-points F\n"
+    "fig4.5       variance of a noisy sine, by mixture and by Gaussian process; no LOG\n";
 
 void defineOptions(CLI::App& app, Options& o, bool& listStudies) {
     app.add_option("LOG", o.log, "Recording to replay (.rawlog)");
@@ -41,8 +44,8 @@ void defineOptions(CLI::App& app, Options& o, bool& listStudies) {
     app.add_option(
         "--holdout-points", o.split.holdoutPoints,
         "Fraction of the points of each mapping scan that tests the map instead");
-    app.add_option("--report", o.reportFolder,
-                   "Folder for metrics.json and figures of studies");
+    defineOccupancyOptions(app, o);
+    app.add_option("--report,--out", o.reportFolder, "Folder for metrics.json and figures");
     app.add_option("--save-map", o.saveMap, "File for the map (.hgmm)");
     app.add_option("--from", o.from, "First scan to use")->check(CLI::NonNegativeNumber);
     app.add_option("--to", o.to, "Last scan to use")->check(CLI::NonNegativeNumber);
@@ -52,12 +55,15 @@ void defineOptions(CLI::App& app, Options& o, bool& listStudies) {
         ->check(CLI::NonNegativeNumber);
     app.add_flag("--quiet", o.quiet, "No progress");
     app.add_option("--study", o.study, "Make a study instead of a map (--list-studies)")
-        ->check(CLI::IsMember({"fig3.2", "incremental"}));
+        ->check(CLI::IsMember({"fig3.2", "incremental", "fig4.5"}));
     app.add_flag("--list-studies", listStudies, "List the studies");
 }
 
 void checkUsage(const Options& o) {
-    if (o.log.empty()) throw CLI::RequiredError("LOG");
+    if (o.study == "fig4.5" && !o.log.empty())
+        throw CLI::ValidationError("--study fig4.5", "makes its own data and takes no LOG");
+    if (o.log.empty() && o.study != "fig4.5") throw CLI::RequiredError("LOG");
+    checkOccupancyUsage(o);
     if (o.from > o.to) throw CLI::ValidationError("--from", "lies beyond --to");
     if (o.study == "incremental" && o.split.every == 0 && o.split.holdoutPoints == 0.0)
         throw CLI::ValidationError("--study incremental",
@@ -85,16 +91,10 @@ ExitCode makeMapAndReport(Recording& recording, const Options& options) {
     const Replayed replayed = replayScans(recording, makeMap(options.config), options);
     if (replayed.run.scansMapped == 0)
         throw std::runtime_error(options.log + ": no scan was left to build a map from");
-    MapFigures figures =
-        evaluateMap(replayed.map->model(), replayed.testPoints, options.split.seed);
-    figures.name = "hgmm";
-    figures.className = replayed.map->GetRuntimeClass()->className;
-    figures.scanTime_ms = summariseTimes(replayed.insert_ms);
-    std::fputs(table(replayed.run, figures, summariseTimes(replayed.conversion_ms)).c_str(),
+    const std::vector<MapFigures> maps = evaluateReplayed(replayed);
+    std::fputs(table(replayed.run, maps, summariseTimes(replayed.conversion_ms)).c_str(),
                stdout);
-    if (options.reportFolder)
-        writeTextFile(*options.reportFolder + "/metrics.json",
-                      metricsJson(replayed.run, {figures}).dump(2) + "\n");
+    if (options.reportFolder) writeReport(replayed.run, maps, *options.reportFolder);
     if (options.saveMap) replayed.map->saveToFile(*options.saveMap);
     if (!replayed.run.interrupted) return kDone;
     std::fprintf(stderr,
@@ -106,6 +106,10 @@ ExitCode makeMapAndReport(Recording& recording, const Options& options) {
 ExitCode run(Options& options) {
     prepareOutputs(options);
     options.threads = useThreads(options.threads);
+    if (options.study == "fig4.5") {
+        regressionStudy(options);
+        return kDone;
+    }
     RecordingOptions recordingOptions{options.poses, options.from, options.to,
                                       options.study != "fig3.2"};
     Recording recording(options.log, recordingOptions);

@@ -3,7 +3,9 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "hgmm/evaluation/free_points.h"
 #include "hgmm/evaluation/split.h"
 
 namespace replay {
@@ -17,6 +19,9 @@ struct Options {
     std::optional<std::string> saveMap;
     std::optional<std::string> study;
     hgmm::evaluation::SplitParams split;
+    std::optional<hgmm::evaluation::NearBand> near;  ///< none = by the kind of sensor
+    hgmm::evaluation::FreeBand free;
+    std::vector<std::string> baselines;  ///< as makeBaseline takes them
     std::size_t from = 0;
     std::size_t to = std::numeric_limits<std::size_t>::max();
     int threads = 0;  ///< 0 = one per core

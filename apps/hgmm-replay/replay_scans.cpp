@@ -17,6 +17,33 @@ double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
+template <class Insert>
+void timed(std::vector<double>& durations_ms, const Insert& insert) {
+    const Clock::time_point start = Clock::now();
+    insert();
+    durations_ms.push_back(millisecondsSince(start));
+}
+
+/// Empty maps, and how they are to be tested.
+Replayed prepare(const Recording& recording,
+                 std::unique_ptr<mrpt::maps::CHGMMOccupancyMap> map,
+                 const Options& options) {
+    const NearBand near = options.near.value_or(nearBandOf(recording.sensor()));
+    Replayed replayed{
+        std::move(map), {}, {}, TestPoints(options.split.seed, near, options.free), {}, {}};
+    for (const std::string& name : options.baselines)
+        replayed.baselines.push_back({name, makeBaseline(name), {}});
+    Run& run = replayed.run;
+    run.dataset = std::filesystem::path(options.log).stem().string();
+    run.sensor = recording.sensor();
+    run.split = options.split;
+    run.queriesPerScan = TestPoints::kQueriesPerScan;
+    run.nearBand = near;
+    run.freeBand = options.free;
+    run.threads = options.threads;
+    return replayed;
+}
+
 /// Lets the map or the test have the points of one scan.
 void useScan(hgmm::Scan scan, std::size_t index, Replayed& replayed) {
     Run& run = replayed.run;
@@ -28,9 +55,9 @@ void useScan(hgmm::Scan scan, std::size_t index, Replayed& replayed) {
     ++run.scansMapped;
     const SplitScan parts = splitPoints(std::move(scan), index, run.split);
     replayed.testPoints.add(parts.heldOut, index);
-    const Clock::time_point start = Clock::now();
-    replayed.map->insertScan(parts.mapping);
-    replayed.insert_ms.push_back(millisecondsSince(start));
+    timed(replayed.insert_ms, [&] { replayed.map->insertScan(parts.mapping); });
+    for (ReplayedBaseline& baseline : replayed.baselines)
+        timed(baseline.insert_ms, [&] { baseline.map->insert(parts.mapping); });
 }
 
 }  // namespace
@@ -38,14 +65,8 @@ void useScan(hgmm::Scan scan, std::size_t index, Replayed& replayed) {
 Replayed replayScans(Recording& recording,
                      std::unique_ptr<mrpt::maps::CHGMMOccupancyMap> map,
                      const Options& options) {
-    Replayed replayed{std::move(map), {}, TestPoints(options.split.seed), {}, {}};
+    Replayed replayed = prepare(recording, std::move(map), options);
     Run& run = replayed.run;
-    run.dataset = std::filesystem::path(options.log).stem().string();
-    run.sensor = recording.sensor();
-    run.split = options.split;
-    run.queriesPerScan = TestPoints::kQueriesPerScan;
-    run.threads = options.threads;
-
     std::size_t points = 0;
     Progress progress(recording.size(), options.quiet);
     while (const std::optional<RecordedScan> recorded = recording.next()) {

@@ -1,21 +1,12 @@
 #include "table.h"
 
-#include <cstdarg>
-#include <cstdio>
+#include "format.h"
+#include "occupancy_table.h"
 
 namespace replay {
 namespace {
 
 using namespace hgmm::evaluation;
-
-__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
-    char text[256];
-    va_list arguments;
-    va_start(arguments, pattern);
-    std::vsnprintf(text, sizeof text, pattern, arguments);
-    va_end(arguments);
-    return text;
-}
 
 double kilobytes(std::size_t bytes) {
     return static_cast<double>(bytes) / 1000.0;
@@ -27,23 +18,22 @@ std::string times(const char* what, const Timing& t) {
         what, t.median, t.p99, t.worst, t.firstTenth, t.lastTenth);
 }
 
-}  // namespace
-
-std::string table(const Run& run, const MapFigures& map, const Timing& conversion_ms) {
+std::string levels(const MapFigures& map) {
     std::string text =
-        run.dataset + format(": %zu scans mapped, %zu tested, %.0f points each, ",
-                             run.scansMapped, run.scansTested, run.pointsPerScan);
-    text += run.sensor + "\n\n" + map.name + "\n";
-    text += "  level  components        KB   KL to level 0 [nat]\n";
-    for (const LevelFigures& level : map.levels)
-        text += format("  %5zu  %10zu  %8.1f   %.4f\n", level.level, level.components,
-                       kilobytes(level.bytes), level.klToLevel0);
-    text += "\n";
-    text +=
-        format("%-22s serialised %.1f KB, live %.1f KB\n", "map",
-               kilobytes(map.memory.serialized_bytes), kilobytes(map.memory.live_bytes));
-    text += times("insertion per scan", map.scanTime_ms);
-    text += times("conversion per scan", conversion_ms);
+        "  level  surface      free        KB   KL to level 0 [nat]   AUC near  uniform\n";
+    for (const LevelFigures& level : map.levels) {
+        text += format("  %5zu  %7zu  %8zu  %8.1f   %-19.4f", level.level, level.components,
+                       level.componentsFree, kilobytes(level.bytes), level.klToLevel0);
+        if (level.aucNear && level.aucUniform)
+            text += format("   %.4f    %.4f", *level.aucNear, *level.aucUniform);
+        text += "\n";
+    }
+    return text;
+}
+
+/// What only a mixture of surfaces can be asked for.
+std::string surface(const MapFigures& map) {
+    std::string text;
     if (map.logLikelihoodOfHits)
         text += format("%-22s %.3f nat/point\n", "held-out likelihood",
                        *map.logLikelihoodOfHits);
@@ -58,6 +48,23 @@ std::string table(const Run& run, const MapFigures& map, const Timing& conversio
         text += "no test points: --split K or --holdout-points F measures accuracy too\n";
     }
     return text;
+}
+
+}  // namespace
+
+std::string table(const Run& run, const std::vector<MapFigures>& maps,
+                  const Timing& conversion_ms) {
+    const MapFigures& map = maps.front();
+    std::string text =
+        run.dataset + format(": %zu scans mapped, %zu tested, %.0f points each, ",
+                             run.scansMapped, run.scansTested, run.pointsPerScan);
+    text += run.sensor + "\n\n" + map.name + "\n" + levels(map) + "\n";
+    text += format("%-22s serialised %.1f KB, live %.1f KB\n", "map",
+                   kilobytes(map.memory.serialized_bytes.value_or(0)),
+                   kilobytes(map.memory.live_bytes));
+    text += times("insertion per scan", map.scanTime_ms);
+    text += times("conversion per scan", conversion_ms);
+    return text + surface(map) + occupancyTable(run, maps);
 }
 
 }  // namespace replay

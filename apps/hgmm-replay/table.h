@@ -1,12 +1,15 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "hgmm/evaluation/figures.h"
 
 namespace replay {
 
-/// The figures of a run for a reader: levels, memory, times and accuracy.
-std::string table(const hgmm::evaluation::Run& run, const hgmm::evaluation::MapFigures& map,
+/// The figures of a run for a reader: those of our map (the first), then occupancy of all
+/// maps side by side.
+std::string table(const hgmm::evaluation::Run& run,
+                  const std::vector<hgmm::evaluation::MapFigures>& maps,
                   const hgmm::evaluation::Timing& conversion_ms);
 
 }  // namespace replay

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "hgmm/evaluation/occupancy_plots.h"
 #include "hgmm/evaluation/svg_plot.h"
 #include "scratch_folder.h"
 
@@ -19,8 +20,38 @@ MapFigures exampleFigures() {
     map.options = {{"levels", 5.0}};
     map.memory = {1000, 2000};
     map.scanTime_ms = {1.0, 2.0, 3.0, 4.0, 5.0};
-    map.levels = {{0, 30, 1200, 0.0}, {1, 20, 800, 0.25}};
+    map.levels = {{0, 30, 40, 1200, 0.0, 0.98, 0.9}, {1, 20, 25, 800, 0.25, {}, {}}};
     return map;
+}
+
+OccupancyFigures exampleOccupancy() {
+    OccupancyFigures f;
+    f.hits = 10;
+    f.uniformFree = 9;
+    f.nearFree = 8;
+    f.rocUniform = {{0.0, 0.0}, {0.0, 0.8}, {1.0, 0.8}, {1.0, 1.0}};
+    f.rocNear = {{0.0, 0.0}, {1.0, 1.0}};
+    f.aucUniform = 0.99;
+    f.aucNear = 0.9;
+    f.balancedAccuracyNear = 0.85;
+    f.brier = 0.1;
+    f.logLoss = 0.4;
+    f.reliability = {{0.1, 0.2}, {0.9, 0.7}};
+    f.ece = 0.03;
+    f.unknownShareHit = 0.01;
+    f.unknownShareFree = 0.02;
+    f.unknownShareNear = 0.04;
+    f.queriesPerSecond = 1e6;
+    return f;
+}
+
+/// Where the first circle of a drawing after `from` is.
+std::pair<double, double> circleAt(const std::string& svg, std::size_t& from) {
+    double x = 0, y = 0;
+    from = svg.find("cx='", from);
+    if (from != std::string::npos)
+        std::sscanf(svg.c_str() + from++, "cx='%lf' cy='%lf'", &x, &y);
+    return {x, y};
 }
 
 }  // namespace
@@ -36,6 +67,8 @@ TEST(MetricsJson, HoldsWhatWasMeasuredUnderTheNamesOfTheSchema) {
     run.split.seed = 17;
     run.queriesPerScan = 2000;
     run.threads = 2;
+    run.nearBand = {0.05, 0.3};
+    run.freeBand = {0.0, 0.2};
     MapFigures map = exampleFigures();
     map.logLikelihoodOfHits = -1.5;
     map.reconstruction = Reconstruction{0.01, 0.03, 0.02, 0.9, 0.8, 0.85};
@@ -50,6 +83,8 @@ TEST(MetricsJson, HoldsWhatWasMeasuredUnderTheNamesOfTheSchema) {
     EXPECT_EQ(json["protocol"]["seed"], 17);
     EXPECT_EQ(json["protocol"]["queries_per_scan"], 2000);
     EXPECT_EQ(json["protocol"]["threads"], 2);
+    EXPECT_EQ(json["protocol"]["near_m"], nlohmann::ordered_json({0.05, 0.3}));
+    EXPECT_EQ(json["protocol"]["free_band_m"], nlohmann::ordered_json({0.0, 0.2}));
     const auto& m = json["maps"].at(0);
     EXPECT_EQ(m["options"]["levels"], 5.0);
     EXPECT_EQ(m["loglik_hit"], -1.5);
@@ -60,6 +95,7 @@ TEST(MetricsJson, HoldsWhatWasMeasuredUnderTheNamesOfTheSchema) {
     EXPECT_EQ(m["bytes_serialized"], 1000);
     EXPECT_EQ(m["bytes_live"], 2000);
     EXPECT_EQ(m["components_surface"], 30);
+    EXPECT_EQ(m["components_free"], 40);
     EXPECT_EQ(m["scan_ms_median"], 1.0);
     EXPECT_EQ(m["scan_ms_p99"], 2.0);
     EXPECT_EQ(m["scan_ms_worst"], 3.0);
@@ -70,6 +106,49 @@ TEST(MetricsJson, HoldsWhatWasMeasuredUnderTheNamesOfTheSchema) {
     EXPECT_EQ(m["levels"][1]["components"], 20);
     EXPECT_EQ(m["levels"][1]["bytes"], 800);
     EXPECT_EQ(m["levels"][1]["kl_to_level0"], 0.25);
+    EXPECT_EQ(m["levels"][1]["components_free"], 25);
+    EXPECT_EQ(m["levels"][0]["auc_uniform"], 0.98);
+    EXPECT_EQ(m["levels"][0]["auc_near"], 0.9);
+    EXPECT_FALSE(m["levels"][1].contains("auc_near"));
+}
+
+TEST(MetricsJson, OccupancyUnderTheNamesOfTheSchema) {
+    MapFigures map = exampleFigures();
+    map.occupancy = exampleOccupancy();
+    const auto json = metricsJson({}, {map});
+    const auto& m = json["maps"].at(0);
+    EXPECT_EQ(m["auc_uniform"], 0.99);
+    EXPECT_EQ(m["auc_near"], 0.9);
+    EXPECT_DOUBLE_EQ(m["tpr_at_fpr_1pct"], 0.8);
+    EXPECT_DOUBLE_EQ(m["tpr_at_fpr_5pct"], 0.8);
+    EXPECT_DOUBLE_EQ(m["tpr_at_fpr_1pct_near"], 0.01);
+    EXPECT_DOUBLE_EQ(m["tpr_at_fpr_5pct_near"], 0.05);
+    EXPECT_EQ(m["balanced_accuracy_near"], 0.85);
+    EXPECT_EQ(m["brier"], 0.1);
+    EXPECT_EQ(m["log_loss"], 0.4);
+    EXPECT_EQ(m["ece"], 0.03);
+    EXPECT_EQ(m["unknown_share_hit"], 0.01);
+    EXPECT_EQ(m["unknown_share_free"], 0.02);
+    EXPECT_EQ(m["unknown_share_near"], 0.04);
+    EXPECT_EQ(m["queries_per_s"], 1e6);
+    EXPECT_EQ(m["hits"], 10);
+    EXPECT_EQ(m["uniform_free_points"], 9);
+    EXPECT_EQ(m["near_free_points"], 8);
+    EXPECT_EQ(m["roc"],
+              nlohmann::ordered_json::parse("[[0.0,0.0],[0.0,0.8],[1.0,0.8],[1.0,1.0]]"));
+    EXPECT_EQ(m["roc_near"], nlohmann::ordered_json::parse("[[0.0,0.0],[1.0,1.0]]"));
+    EXPECT_EQ(m["reliability"], nlohmann::ordered_json::parse("[[0.1,0.2],[0.9,0.7]]"));
+}
+
+TEST(MetricsJson, OtherMapsHaveNoComponentsAndNoSavedSize) {
+    MapFigures map = exampleFigures();
+    map.levels.clear();
+    map.memory.serialized_bytes.reset();
+    const auto json = metricsJson({}, {exampleFigures(), map});
+    ASSERT_EQ(json["maps"].size(), 2U);
+    for (const char* key : {"bytes_serialized", "components_surface", "components_free"})
+        EXPECT_FALSE(json["maps"][1].contains(key)) << key;
+    EXPECT_EQ(json["maps"][1]["bytes_live"], 2000);
 }
 
 TEST(MetricsJson, WhatWasNotMeasuredIsLeftOut) {
@@ -118,4 +197,44 @@ TEST(SvgPlot, RefusesWhatCannotBeDrawn) {
     EXPECT_THROW(toSvg({"", "", "", {{{{0, std::nan("")}}, "", false}}}),
                  std::invalid_argument);
     EXPECT_NO_THROW(toSvg({"", "", "", {{{{5, 5}}, "", false}}}));
+}
+
+TEST(SvgPlot, DecadesAreEquallyLongOnALogarithmicAxis) {
+    Plot plot;
+    Curve curve;
+    curve.markers = true;
+    curve.points = {{10, 0}, {100, 1}, {10000, 2}};
+    plot.curves = {curve};
+    plot.xLogarithmic = true;
+    const std::string svg = toSvg(plot);
+    std::size_t at = 0;
+    const double x10 = circleAt(svg, at).first, x100 = circleAt(svg, at).first,
+                 x10000 = circleAt(svg, at).first;
+    EXPECT_GT(x100, x10);
+    EXPECT_NEAR(x10000 - x100, 2 * (x100 - x10), 0.01);
+    EXPECT_NE(svg.find(">1000</text>"), std::string::npos);
+    plot.curves[0].points.emplace_back(0.0, 1.0);
+    EXPECT_THROW(toSvg(plot), std::invalid_argument);
+}
+
+TEST(OccupancyPlots, ShowEveryMap) {
+    MapFigures ours = exampleFigures(), other = exampleFigures();
+    ours.occupancy = exampleOccupancy();
+    other.name = "octomap:0.05";
+    other.levels.clear();
+    other.occupancy = ours.occupancy;
+    const Plot levels = levelsPlot({ours, other});
+    ASSERT_EQ(levels.curves.size(), 2U);
+    // The level that was not asked about occupancy is left out.
+    using Points2 = std::vector<std::pair<double, double>>;
+    EXPECT_EQ(levels.curves[0].points, (Points2{{1.2, 0.9}}));
+    EXPECT_EQ(levels.curves[1].points, (Points2{{2.0, 0.9}}));
+    EXPECT_EQ(reliabilityPlot({ours}).curves.back().points,
+              (Points2{{0.1, 0.2}, {0.9, 0.7}}));
+    for (const Plot& plot :
+         {levels, rocPlot({ours, other}), reliabilityPlot({ours, other})}) {
+        const std::string svg = toSvg(plot);
+        EXPECT_NE(svg.find("hgmm"), std::string::npos);
+        EXPECT_NE(svg.find("octomap:0.05"), std::string::npos);
+    }
 }

@@ -132,6 +132,18 @@ TEST(Memory, ParametersAreTenFloatsAComponent) {
     EXPECT_EQ(parameterBytes(mixture), 280U);
 }
 
+TEST(Memory, ALevelIsItsSurfaceAndItsFreeSpace) {
+    hgmm::Mixture<4> free;
+    hgmm::Gaussian<4> g;
+    g.support = 1.0;
+    g.covariance.setIdentity();
+    for (int i = 0; i < 3; ++i) free.pushBack(g);
+    EXPECT_EQ(parameterBytes(free), 3U * 15 * 4);
+    const hgmm::Map map;
+    EXPECT_EQ(levelBytes(map, 0), 0U);
+    EXPECT_THROW(levelBytes(map, map.levelCount()), std::out_of_range);
+}
+
 TEST(Memory, ComesFromTheMapItself) {
     const hgmm::Map map;
     EXPECT_EQ(memoryOf(map).serialized_bytes, map.save().size());

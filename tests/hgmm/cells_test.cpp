@@ -96,7 +96,7 @@ TEST(Cells, ParametersOutOfRangeAreNamed) {
     params.minSamples = 0;
     EXPECT_THROW(params.validate(), std::invalid_argument);
     params = {};
-    params.cellPerRange = -1;
+    params.cellAtOneMetre_m = -1;
     EXPECT_THROW(params.validate(), std::invalid_argument);
 }
 

@@ -42,7 +42,7 @@ TEST(MapIo, RoundTripIsExact) {
     EXPECT_EQ(loaded.save(), buffer);
     EXPECT_EQ(loaded.origin(), map.origin());
     EXPECT_EQ(loaded.params().hierarchy.levels, map.params().hierarchy.levels);
-    EXPECT_NE(loaded.params().filter.leafPerRange, FilterParams().leafPerRange);
+    EXPECT_NE(loaded.params().filter.leafAtOneMetre_m, FilterParams().leafAtOneMetre_m);
     const Eigen::Vector3d wall(1003.99, 2000.3, 31.1);
     EXPECT_EQ(loaded.logDensity(wall), map.logDensity(wall));
     EXPECT_EQ(loaded.mixture(3), map.mixture(3));

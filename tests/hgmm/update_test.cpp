@@ -68,7 +68,8 @@ TEST(Update, IsEquations319To322) {
             S_Sigma[j] += share * (z.covariance + z.mean * z.mean.transpose());
         }
     }
-    const auto changed = updateKnown(f.mixture, f.index, f.samples, f.split);
+    const auto changed =
+        updateKnown(f.mixture, f.index, f.samples, f.split).changed;
     ASSERT_EQ(changed, (std::vector<std::uint32_t>{0, 1}));
     f.mixture.check();
     for (int j = 0; j < 2; ++j) {
@@ -88,7 +89,7 @@ TEST(Update, NothingKnownChangesNothing) {
     const Mixture<3> old = f.mixture;
     NoveltySplit none;
     none.neighbourhoods.begin.push_back(0);
-    EXPECT_TRUE(updateKnown(f.mixture, f.index, f.samples, none).empty());
+    EXPECT_TRUE(updateKnown(f.mixture, f.index, f.samples, none).changed.empty());
     EXPECT_EQ(f.mixture, old);
 }
 

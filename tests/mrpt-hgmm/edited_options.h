@@ -26,10 +26,20 @@ inline Values values(const CHGMMOccupancyMap::TLikelihoodOptions& o) {
             {"maxRange_m", o.maxRange_m}};
 }
 inline Values values(const CHGMMOccupancyMap::TRenderOptions& o) {
-    return {{"sigmas", o.sigmas},
-            {"level", o.level},
+    return {{"level", o.level},
+            {"drawEllipsoids", o.drawEllipsoids},
+            {"drawFreeSpace", o.drawFreeSpace},
+            {"drawVoxels", o.drawVoxels},
+            {"sigmas", o.sigmas},
             {"maxEllipsoids", o.maxEllipsoids},
-            {"colourByWeight", o.colourByWeight}};
+            {"colour", o.colour},
+            {"voxelResolution_m", o.voxelResolution_m},
+            {"minOccupied", o.minOccupied},
+            {"generateOccupiedVoxels", o.generateOccupiedVoxels},
+            {"visibleOccupiedVoxels", o.visibleOccupiedVoxels},
+            {"generateFreeVoxels", o.generateFreeVoxels},
+            {"visibleFreeVoxels", o.visibleFreeVoxels},
+            {"generateGridLines", o.generateGridLines}};
 }
 
 inline void change(CHGMMOccupancyMap::TInsertionOptions& options) {
@@ -52,7 +62,17 @@ inline void change(CHGMMOccupancyMap::TRenderOptions& o) {
     o.sigmas = 1.25;
     o.level = 2;
     o.maxEllipsoids = 55;
-    o.colourByWeight = true;
+    o.colour = 1;
+    o.drawEllipsoids = false;
+    o.drawFreeSpace = true;
+    o.drawVoxels = true;
+    o.voxelResolution_m = 0.25;
+    o.minOccupied = 0.625;
+    o.generateOccupiedVoxels = false;
+    o.visibleOccupiedVoxels = false;
+    o.generateFreeVoxels = false;
+    o.visibleFreeVoxels = false;
+    o.generateGridLines = true;
 }
 inline void change(CHGMMOccupancyMap& map) {
     change(map.insertionOptions);

@@ -80,8 +80,12 @@ TEST(OptionErrors, BadValueNamesSectionKeyAndValue) {
               std::string::npos);
     EXPECT_NE(errorOf<Likelihood>("maxPoints = 0").find("maxPoints"), std::string::npos);
     EXPECT_NE(errorOf<Likelihood>("minRange_m = 90").find("maxRange_m"), std::string::npos);
-    EXPECT_NE(errorOf<Render>("colourByWeight = maybe").find("colourByWeight"),
+    EXPECT_NE(errorOf<Render>("drawVoxels = maybe").find("drawVoxels"), std::string::npos);
+    EXPECT_NE(errorOf<Render>("colour = 4").find("colour"), std::string::npos);
+    EXPECT_NE(errorOf<Render>("colour = height").find("colour"), std::string::npos);
+    EXPECT_NE(errorOf<Render>("voxelResolution_m = -1").find("voxelResolution_m"),
               std::string::npos);
+    EXPECT_NE(errorOf<Render>("minOccupied = 1").find("minOccupied"), std::string::npos);
     EXPECT_NE(errorOf<Render>("sigmas = 0").find("sigmas"), std::string::npos);
 }
 
@@ -89,11 +93,11 @@ TEST(OptionErrors, CommentsAndSpellingsOfNumbersAreUnderstood) {
     CHGMMOccupancyMap::TInsertionOptions options;
     options.loadFromConfigFile(CConfigFileMemory(std::string(
                                    "[s]\nminLeaf_m = +2e-2 ; metres\nlevels = 3 # three\n"
-                                   "leafPerRange = 0.5 // half\n")),
+                                   "leafAtOneMetre_m = 0.5 // half\n")),
                                "s");
     EXPECT_EQ(options.params.filter.minLeaf_m, 0.02);
     EXPECT_EQ(options.params.hierarchy.levels, 3);
-    EXPECT_EQ(options.params.filter.leafPerRange, 0.5);
+    EXPECT_EQ(options.params.filter.leafAtOneMetre_m, 0.5);
 }
 
 TEST(OptionErrors, MisspeltNamesAreReportedWithTheNearest) {

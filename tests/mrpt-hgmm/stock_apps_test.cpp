@@ -175,10 +175,10 @@ TEST_F(StockApps, MisspeltKeyWarnsAndBadValueFails) {
     EXPECT_NE(warned.output.find("unknown key 'minLeafm'"), std::string::npos);
     EXPECT_NE(warned.output.find("did you mean 'minLeaf_m'"), std::string::npos);
 
-    edit("observations2map.ini", "leafPerRange = 0.02", "leafPerRange = thick");
+    edit("observations2map.ini", "leafAtOneMetre_m = 0.04", "leafAtOneMetre_m = thick");
     const auto refused = stock_app::run(command, folder);
     EXPECT_NE(refused.exitCode, 0);
-    EXPECT_NE(refused.output.find("leafPerRange = 'thick'"), std::string::npos)
+    EXPECT_NE(refused.output.find("leafAtOneMetre_m = 'thick'"), std::string::npos)
         << tail(refused.output);
 }
 

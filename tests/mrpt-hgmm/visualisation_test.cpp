@@ -75,21 +75,60 @@ TEST(Visualisation, ObeysItsOptions) {
     EXPECT_EQ(count(map), 0U);
 }
 
-TEST(Visualisation, ColourShowsHeightOrWeight) {
+std::vector<int> colours(const CHGMMOccupancyMap& map) {
+    std::vector<int> result;
+    const auto objects = map.getVisualization();
+    for (const auto& o : *objects) {
+        const auto c = o->getColor_u8();
+        result.push_back((c.R << 16) | (c.G << 8) | c.B);
+    }
+    return result;
+}
+
+TEST(Visualisation, ColourShowsWhatTheOptionSays) {
     CHGMMOccupancyMap map = wallMap();
-    const auto colours = [&] {
-        std::vector<int> result;
-        const auto objects = map.getVisualization();
-        for (const auto& o : *objects) {
-            const auto c = o->getColor_u8();
-            result.push_back((c.R << 16) | (c.G << 8) | c.B);
+    std::set<std::vector<int>> all;
+    for (const int colour : {0, 1, 2, 3}) {
+        map.renderOptions.colour = colour;
+        const auto shown = colours(map);
+        EXPECT_TRUE(all.insert(shown).second) << colour << ": as another option";
+        if (colour < 2) {
+            EXPECT_GT(std::set<int>(shown.begin(), shown.end()).size(), 1U) << colour;
         }
-        return result;
-    };
-    const auto byHeight = colours();
-    EXPECT_GT(std::set<int>(byHeight.begin(), byHeight.end()).size(), 1U);
-    map.renderOptions.colourByWeight = true;
-    EXPECT_NE(colours(), byHeight);
+    }
+}
+
+// Blue at 0, red at 1, whatever the other components are.
+TEST(Visualisation, OccupancyColoursAreAbsolute) {
+    CHGMMOccupancyMap map = wallMap();
+    map.renderOptions.colour = 2;
+    const auto objects = map.getVisualization();
+    const auto& mixture = map.model().mixture();
+    for (std::size_t i = 0; i < mixture.size(); ++i) {
+        const double occupied =
+            map.model().occupancy(map.model().origin() + mixture[i].mean).occupied;
+        const auto colour = ellipsoidAt(*objects, i)->getColor_u8();
+        if (occupied > 0.7) {
+            EXPECT_GT(colour.R, colour.B) << i;
+        } else if (occupied < 0.3) {
+            EXPECT_LT(colour.R, colour.B) << i;
+        }
+    }
+}
+
+TEST(Visualisation, FreeSpaceIsTranslucentAndOptional) {
+    CHGMMOccupancyMap map = wallMap();
+    map.renderOptions.drawFreeSpace = true;
+    map.renderOptions.drawEllipsoids = false;
+    const auto& mixture = map.model().freeMixture();
+    ASSERT_GT(mixture.size(), 0U);
+    const auto objects = map.getVisualization();
+    ASSERT_EQ(objects->size(), mixture.size());
+    const auto shape = ellipsoidAt(*objects, 0);
+    ASSERT_TRUE(shape);
+    EXPECT_LT(shape->getColor().A, 0.5F);
+    EXPECT_NEAR(shape->getPoseX(), map.model().origin().x() + mixture.mean[0][0], 1e-6);
+    EXPECT_EQ(shape->getCovMatrix()(1, 2), mixture[0].covariance(1, 2));
 }
 
 TEST(Visualisation, EmptyMapDrawsNothing) {

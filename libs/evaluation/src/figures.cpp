@@ -8,7 +8,20 @@
 
 namespace hgmm::evaluation {
 
-std::vector<LevelFigures> levelFigures(const Map& map) {
+namespace {
+
+/// None where no free point was drawn: a rate needs both classes.
+std::optional<OccupancyFigures> occupancyOf(const BatchQuery& query,
+                                            const TestPoints& testPoints) {
+    if (testPoints.uniformFree().points_map.empty() ||
+        testPoints.nearFree().points_map.empty())
+        return std::nullopt;
+    return evaluateOccupancy(query, testPoints);
+}
+
+}  // namespace
+
+std::vector<LevelFigures> levelFigures(const Map& map, const TestPoints& testPoints) {
     std::vector<LevelFigures> figures;
     if (map.empty()) return figures;
     const Mixture<3>& base = map.mixture(0);
@@ -17,20 +30,28 @@ std::vector<LevelFigures> levelFigures(const Map& map) {
         LevelFigures& f = figures.emplace_back();
         f.level = level;
         f.components = mixture.size();
-        f.bytes = parameterBytes(mixture);
+        f.componentsFree = map.freeMixture(level).size();
+        f.bytes = levelBytes(map, level);
         if (level > 0) f.klToLevel0 = klDivergence(base, mixture);
+        if (const auto occupancy = occupancyOf(queryOf(map, level), testPoints)) {
+            f.aucUniform = occupancy->aucUniform;
+            f.aucNear = occupancy->aucNear;
+        }
     }
     return figures;
 }
 
-MapFigures evaluateMap(const Map& map, const TestPoints& testPoints, std::uint64_t seed) {
+MapFigures evaluateMap(const Map& built, const TestPoints& testPoints, std::uint64_t seed) {
+    const std::vector<std::uint8_t> saved = built.save();
+    const Map map = Map::load(saved.data(), saved.size());
     MapFigures figures;
     forEachField(map.params(), [&](const char* name, auto value) {
         figures.options.emplace_back(name, static_cast<double>(value));
     });
-    figures.levels = levelFigures(map);
-    figures.memory = memoryOf(map);
+    figures.levels = levelFigures(map, testPoints);
+    figures.memory = memoryOf(built);
     if (map.empty() || testPoints.empty()) return figures;
+    figures.occupancy = occupancyOf(queryOf(map), testPoints);
 
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
@@ -42,6 +63,18 @@ MapFigures evaluateMap(const Map& map, const TestPoints& testPoints, std::uint64
     figures.reconstruction =
         compareSurfaces(sampleSurface(map.mixture(), map.origin(), kModelPoints, seed),
                         testPoints.reference());
+    return figures;
+}
+
+MapFigures evaluateBaseline(const Baseline& baseline, const TestPoints& testPoints) {
+    MapFigures figures;
+    figures.className = baseline.className();
+    figures.options = baseline.options();
+    figures.memory.live_bytes = baseline.liveBytes();
+    figures.occupancy =
+        occupancyOf([&](const Eigen::Vector3d* points_map, std::size_t n,
+                        Answer* answers) { baseline.query(points_map, n, answers); },
+                    testPoints);
     return figures;
 }
 

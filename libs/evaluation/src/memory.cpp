@@ -6,9 +6,8 @@ Memory memoryOf(const Map& map) {
     return {map.save().size(), map.liveBytes()};
 }
 
-std::size_t parameterBytes(const Mixture<3>& mixture) {
-    constexpr std::size_t floatsPerComponent = 1 + 3 + Mixture<3>::packed;
-    return mixture.size() * floatsPerComponent * sizeof(float);
+std::size_t levelBytes(const Map& map, std::size_t level) {
+    return parameterBytes(map.mixture(level)) + parameterBytes(map.freeMixture(level));
 }
 
 }  // namespace hgmm::evaluation

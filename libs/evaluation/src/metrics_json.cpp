@@ -25,19 +25,59 @@ Json protocolJson(const Run& run) {
             {"holdout_points", run.split.holdoutPoints},
             {"queries_per_scan", run.queriesPerScan},
             {"seed", run.split.seed},
+            {"near_m", {run.nearBand.min_m, run.nearBand.max_m}},
+            {"free_band_m", {run.freeBand.fromSensor_m, run.freeBand.beforeHit_m}},
             {"threads", run.threads}};
 }
 
 Json levelJson(const LevelFigures& level) {
-    return {{"level", level.level},
-            {"components", level.components},
-            {"bytes", level.bytes},
-            {"kl_to_level0", level.klToLevel0}};
+    Json json{{"level", level.level},
+              {"components", level.components},
+              {"components_free", level.componentsFree},
+              {"bytes", level.bytes},
+              {"kl_to_level0", level.klToLevel0}};
+    if (level.aucNear) json["auc_near"] = *level.aucNear;
+    if (level.aucUniform) json["auc_uniform"] = *level.aucUniform;
+    return json;
+}
+
+/// Pairs of false and true positive rates, close enough for a drawing.
+Json rocJson(const RocCurve& curve) {
+    constexpr double step = 0.005;
+    Json json = Json::array();
+    for (const RocPoint& p : thinned(curve, step)) json.push_back({p.fpr, p.tpr});
+    return json;
+}
+
+void addOccupancy(const OccupancyFigures& f, Json& json) {
+    json["hits"] = f.hits;
+    json["uniform_free_points"] = f.uniformFree;
+    json["near_free_points"] = f.nearFree;
+    json["auc_uniform"] = f.aucUniform;
+    json["auc_near"] = f.aucNear;
+    json["tpr_at_fpr_1pct"] = tprAt(f.rocUniform, 0.01);
+    json["tpr_at_fpr_5pct"] = tprAt(f.rocUniform, 0.05);
+    json["tpr_at_fpr_1pct_near"] = tprAt(f.rocNear, 0.01);
+    json["tpr_at_fpr_5pct_near"] = tprAt(f.rocNear, 0.05);
+    json["balanced_accuracy_near"] = f.balancedAccuracyNear;
+    json["brier"] = f.brier;
+    json["log_loss"] = f.logLoss;
+    json["ece"] = f.ece;
+    json["unknown_share_hit"] = f.unknownShareHit;
+    json["unknown_share_free"] = f.unknownShareFree;
+    json["unknown_share_near"] = f.unknownShareNear;
+    json["queries_per_s"] = f.queriesPerSecond;
+    json["roc"] = rocJson(f.rocUniform);
+    json["roc_near"] = rocJson(f.rocNear);
+    json["reliability"] = Json::array();
+    for (const ReliabilityBin& bin : f.reliability)
+        json["reliability"].push_back({bin.meanProbability, bin.occupiedShare});
 }
 
 Json mapJson(const MapFigures& map) {
     Json json{{"name", map.name}, {"class", map.className}};
     for (const auto& [key, value] : map.options) json["options"][key] = value;
+    if (map.occupancy) addOccupancy(*map.occupancy, json);
     if (map.logLikelihoodOfHits) json["loglik_hit"] = *map.logLikelihoodOfHits;
     if (map.reconstruction) {
         json["accuracy_m"] = map.reconstruction->accuracy_m;
@@ -45,9 +85,13 @@ Json mapJson(const MapFigures& map) {
         json["chamfer_m"] = map.reconstruction->chamfer_m;
         json["f1_5cm"] = map.reconstruction->f1;
     }
-    json["bytes_serialized"] = map.memory.serialized_bytes;
+    if (map.memory.serialized_bytes)
+        json["bytes_serialized"] = *map.memory.serialized_bytes;
     json["bytes_live"] = map.memory.live_bytes;
-    json["components_surface"] = map.levels.empty() ? 0 : map.levels.front().components;
+    if (!map.levels.empty()) {
+        json["components_surface"] = map.levels.front().components;
+        json["components_free"] = map.levels.front().componentsFree;
+    }
     json["scan_ms_median"] = map.scanTime_ms.median;
     json["scan_ms_p99"] = map.scanTime_ms.p99;
     json["scan_ms_worst"] = map.scanTime_ms.worst;

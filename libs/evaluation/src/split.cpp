@@ -50,18 +50,25 @@ bool SplitParams::isTestScan(std::size_t scanIndex) const {
     return scanIndex % K == K / 2;
 }
 
+std::mt19937_64 randomStream(std::uint64_t seed, std::size_t scanIndex, Draw draw) {
+    std::seed_seq sequence{seed, seed >> 32U, static_cast<std::uint64_t>(scanIndex),
+                           static_cast<std::uint64_t>(draw)};
+    return std::mt19937_64(sequence);
+}
+
+double nextUniform(std::mt19937_64& stream) {
+    return static_cast<double>(stream() >> 11U) * 0x1p-53;
+}
+
 std::vector<std::size_t> chooseIndices(std::size_t total, std::size_t n, std::uint64_t seed,
                                        std::size_t scanIndex, Draw draw) {
     std::vector<std::size_t> chosen;
     chosen.reserve(std::min(total, n));
-    std::seed_seq sequence{seed, seed >> 32U, static_cast<std::uint64_t>(scanIndex),
-                           static_cast<std::uint64_t>(draw)};
-    std::mt19937_64 engine(sequence);
+    std::mt19937_64 stream = randomStream(seed, scanIndex, draw);
     // Selection sampling: index i is taken with probability (still needed) / (still to
     // come).
     for (std::size_t i = 0; i < total && chosen.size() < n; ++i) {
-        const double uniform = static_cast<double>(engine() >> 11U) * 0x1p-53;
-        if (uniform * static_cast<double>(total - i) <
+        if (nextUniform(stream) * static_cast<double>(total - i) <
             static_cast<double>(n - chosen.size()))
             chosen.push_back(i);
     }

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kWidth = 720, kHeight = 440;
 constexpr double kLeft = 80, kRight = 20, kTop = 40, kBottom = 60;  // margins
-constexpr const char* kColours[] = {"#0b5fa5", "#c4421a", "#2e7d32", "#6a3d9a", "#8d6e00"};
+constexpr const char* kColours[] = {"#0b5fa5", "#c4421a", "#2e7d32", "#6a3d9a",
+                                    "#8d6e00", "#00838f", "#ad1457", "#455a64"};
 
 std::string number(double v) {
     char text[32];
@@ -38,34 +39,52 @@ std::string textAt(double x, double y, const char* anchor, const std::string& te
            "' " + more + ">" + escaped(text) + "</text>\n";
 }
 
-/// One axis: its data range and where that lies on the page.
+/// One axis: its data range and where that lies on the page. Logarithmic ones have the
+/// decimal logarithm of the data as their range.
 struct Axis {
     double low, high;            // data
     double pixelLow, pixelHigh;  // page
+    bool logarithmic;
 
     double toPixel(double v) const {
-        return pixelLow + (v - low) / (high - low) * (pixelHigh - pixelLow);
+        const double at = logarithmic ? std::log10(v) : v;
+        return pixelLow + (at - low) / (high - low) * (pixelHigh - pixelLow);
+    }
+
+    /// The decades, and between few of them 2 and 5 as well.
+    std::vector<double> logarithmicTicks() const {
+        std::vector<double> values;
+        const bool few = high - low < 2.5;
+        for (double decade = std::floor(low); decade <= high; ++decade)
+            for (const double factor : {1.0, 2.0, 5.0}) {
+                const double v = factor * std::pow(10.0, decade);
+                if (factor > 1.0 && !few) continue;
+                if (std::log10(v) >= low && std::log10(v) <= high) values.push_back(v);
+            }
+        return values;
     }
 
     /// Four to ten round values.
     std::vector<double> ticks() const {
-        const double raw = (high - low) / 5.0;
+        if (logarithmic) return logarithmicTicks();
+        const double raw = (high - low) / 10.0;
         const double decade = std::pow(10.0, std::floor(std::log10(raw)));
         double step = 10.0 * decade;
         for (const double factor : {5.0, 2.0, 1.0})
             if (factor * decade >= raw) step = factor * decade;
         std::vector<double> values;
         for (double k = std::ceil(low / step); k * step <= high + 1e-9 * step; ++k)
-            values.push_back(k * step);
+            values.push_back(k * step + 0.0);  // no -0
         return values;
     }
 };
 
 Axis fitAxis(const Plot& plot, bool vertical) {
+    const bool logarithmic = plot.xLogarithmic && !vertical;
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const Curve& curve : plot.curves) {
         for (const auto& [x, y] : curve.points) {
-            const double v = vertical ? y : x;
+            const double v = vertical ? y : logarithmic ? std::log10(x) : x;
             if (!std::isfinite(v))
                 throw std::invalid_argument("toSvg: not finite: " + curve.label);
             low = std::min(low, v);
@@ -77,8 +96,8 @@ Axis fitAxis(const Plot& plot, bool vertical) {
         high > low ? 0.03 * (high - low) : std::max(1.0, 0.1 * std::abs(low));
     low -= margin;
     high += margin;
-    if (vertical) return {low, high, kHeight - kBottom, kTop};
-    return {low, high, kLeft, kWidth - kRight};
+    if (vertical) return {low, high, kHeight - kBottom, kTop, false};
+    return {low, high, kLeft, kWidth - kRight, logarithmic};
 }
 
 std::string drawAxes(const Plot& plot, const Axis& x, const Axis& y) {
@@ -114,7 +133,27 @@ std::string drawCurve(const Curve& curve, const Axis& x, const Axis& y,
                       (curve.emphasised ? "1" : "0.6") + "' points='";
     for (const auto& [px, py] : curve.points)
         svg += number(x.toPixel(px)) + "," + number(y.toPixel(py)) + " ";
-    return svg + "'/>\n";
+    svg += "'/>\n";
+    if (!curve.markers) return svg;
+    for (const auto& [px, py] : curve.points)
+        svg += "<circle r='4' fill='" + colour + "' cx='" + number(x.toPixel(px)) +
+               "' cy='" + number(y.toPixel(py)) + "'/>\n";
+    return svg;
+}
+
+/// The label of a curve, in the line `place` of the legend.
+std::string drawLabel(const Plot& plot, const Curve& curve, std::size_t place,
+                      const std::string& colour) {
+    constexpr double lineHeight = 18, inset = 10;
+    const auto labelled = std::count_if(plot.curves.begin(), plot.curves.end(),
+                                        [](const Curve& c) { return !c.label.empty(); });
+    const double height = lineHeight * static_cast<double>(labelled - 1);
+    const double first =
+        plot.legend == Legend::topRight ? kTop + 20 : kHeight - kBottom - 12 - height;
+    const bool left = plot.legend == Legend::bottomLeft;
+    return textAt(left ? kLeft + inset : kWidth - kRight - inset,
+                  first + lineHeight * static_cast<double>(place), left ? "start" : "end",
+                  curve.label, "fill='" + colour + "'");
 }
 
 }  // namespace
@@ -136,10 +175,7 @@ std::string toSvg(const Plot& plot) {
             const std::string colour =
                 curve.label.empty() ? "#999999" : kColours[place % std::size(kColours)];
             svg += drawCurve(curve, x, y, colour);
-            if (!curve.label.empty())
-                svg += textAt(kWidth - kRight - 10,
-                              kTop + 20 + 18 * static_cast<double>(place), "end",
-                              curve.label, "fill='" + colour + "'");
+            if (!curve.label.empty()) svg += drawLabel(plot, curve, place, colour);
         }
     }
     return svg + "</svg>\n";

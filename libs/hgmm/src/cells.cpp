@@ -53,7 +53,8 @@ std::vector<CellId> assignCells(const Mixture<3>& samples,
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const Eigen::Vector3d p = samples[i].mean;
         const double edge =
-            std::max(params.minCell_m, params.cellPerRange * (p - sensorOrigin).norm());
+            std::max(params.minCell_m,
+                     params.cellAtOneMetre_m * std::sqrt((p - sensorOrigin).norm()));
         cells[i] = cellAt(p, std::ilogb(edge));
         ++count[cells[i]];
     }
@@ -94,7 +95,7 @@ Neighbourhoods findNeighbourhoods(const Mixture<3>& samples, const Mixture<3>& m
 }  // namespace
 
 void CellParams::validate() const {
-    requireInRange("cellPerRange", cellPerRange, 1e-3, 10.0);
+    requireInRange("cellAtOneMetre_m", cellAtOneMetre_m, 1e-3, 100.0);
     requireInRange("minCell_m", minCell_m, 1e-3, 1e3);
     requireInRange("minSamples", minSamples, 1, 1e6);
 }

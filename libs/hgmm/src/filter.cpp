@@ -79,7 +79,7 @@ class LeafTable {
 };
 
 std::uint64_t leafKey(int octave, float x, float y, float z) {
-    // 19 bits an axis hold any leaf index, because a leaf is at least 5e-5 of the range.
+    // 19 bits an axis hold any leaf index, at the smallest leaves and 100 km.
     constexpr std::uint64_t mask = (1U << 19U) - 1U;
     const float perLeaf = std::ldexp(1.F, -octave);
     const auto cell = [&](float v) {
@@ -110,7 +110,7 @@ Gaussian<3> sampleOf(const Leaf& leaf, const FilterParams& params) {
 }  // namespace
 
 void FilterParams::validate() const {
-    requireInRange("leafPerRange", leafPerRange, 1e-4, 1.0);
+    requireInRange("leafAtOneMetre_m", leafAtOneMetre_m, 5e-3, 10.0);
     requireInRange("minLeaf_m", minLeaf_m, 1e-4, 100.0);
     requireInRange("minRange_m", minRange_m, 0.0, 1e5);
     requireInRange("maxRange_m", maxRange_m, minRange_m, 1e5);
@@ -119,7 +119,7 @@ void FilterParams::validate() const {
 }
 
 Mixture<3> filterScan(const Scan& scan, const FilterParams& params, FilterCounts* counts) {
-    const auto leafPerRange = static_cast<float>(params.leafPerRange);
+    const auto leafAtOneMetre = static_cast<float>(params.leafAtOneMetre_m);
     const auto minLeaf = static_cast<float>(params.minLeaf_m);
     const auto minRange = static_cast<float>(params.minRange_m);
     const auto maxRange = static_cast<float>(params.maxRange_m);
@@ -136,7 +136,7 @@ Mixture<3> filterScan(const Scan& scan, const FilterParams& params, FilterCounts
             ++counted.outOfRange;
             continue;
         }
-        const int octave = std::ilogb(std::max(minLeaf, leafPerRange * range));
+        const int octave = std::ilogb(std::max(minLeaf, leafAtOneMetre * std::sqrt(range)));
         table.find(leafKey(octave, x, y, z), x, y, z).add(x, y, z);
         ++counted.used;
     }

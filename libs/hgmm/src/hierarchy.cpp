@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 #include "goldberger.h"
@@ -94,15 +95,20 @@ Mixture<D> mergePass(const Mixture<D>& mixture, double similarity) {
 
 template <int D>
 Mixture<D> mergeToSize(const Mixture<D>& mixture, std::size_t size,
-                       const HierarchyParams& params) {
+                       const HierarchyParams& params, std::vector<std::uint32_t>* heirs) {
     Mixture<D> level = mixture;
+    std::vector<std::uint32_t> all(mixture.size());
+    std::iota(all.begin(), all.end(), 0U);
     double similarity = params.similarityStart;
     while (level.size() > size && similarity < kLargestSimilarity) {
-        level = mergePass(level, similarity);
+        MergeSweep<D> sweep(level, similarity);
+        level = sweep.run();
+        for (std::uint32_t& heir : all) heir = sweep.heirs()[heir];
         const double next = raised(similarity, params.similarityStep);
         if (next == similarity) break;
         similarity = next;
     }
+    if (heirs != nullptr) *heirs = std::move(all);
     return level;
 }
 
@@ -141,11 +147,14 @@ Hierarchy<D> generateHierarchy(const Mixture<D>& reference, const HierarchyParam
 }
 
 template Mixture<2> mergePass(const Mixture<2>&, double);
-template Mixture<2> mergeToSize(const Mixture<2>&, std::size_t, const HierarchyParams&);
+template Mixture<2> mergeToSize(const Mixture<2>&, std::size_t, const HierarchyParams&,
+                                std::vector<std::uint32_t>*);
 template Mixture<3> mergePass(const Mixture<3>&, double);
-template Mixture<3> mergeToSize(const Mixture<3>&, std::size_t, const HierarchyParams&);
+template Mixture<3> mergeToSize(const Mixture<3>&, std::size_t, const HierarchyParams&,
+                                std::vector<std::uint32_t>*);
 template Mixture<4> mergePass(const Mixture<4>&, double);
-template Mixture<4> mergeToSize(const Mixture<4>&, std::size_t, const HierarchyParams&);
+template Mixture<4> mergeToSize(const Mixture<4>&, std::size_t, const HierarchyParams&,
+                                std::vector<std::uint32_t>*);
 template Hierarchy<2> generateHierarchy(const Mixture<2>&, const HierarchyParams&);
 template Hierarchy<3> generateHierarchy(const Mixture<3>&, const HierarchyParams&);
 template Hierarchy<4> generateHierarchy(const Mixture<4>&, const HierarchyParams&);

@@ -34,6 +34,26 @@ std::uint64_t mortonOf(const Mixture<3>& base, std::uint32_t i) {
     return code;
 }
 
+/// The upper levels of one block, and for each the component that holds each member.
+void generate(const std::vector<std::uint32_t>& members, const Mixture<3>& base,
+              const HierarchyParams& params, std::vector<Mixture<3>>& levels,
+              std::vector<std::vector<std::uint32_t>>& heirs) {
+    Mixture<3> level;
+    std::vector<std::uint32_t> held, next;
+    for (const std::uint32_t i : members) {
+        held.push_back(static_cast<std::uint32_t>(level.size()));
+        level.pushBack(base[i]);
+    }
+    for (int l = 1; l < params.levels; ++l) {
+        const auto size =
+            static_cast<std::size_t>(params.levelRatio * double(level.size()));
+        level = mergeToSize(level, std::max<std::size_t>(size, 1), params, &next);
+        for (std::uint32_t& h : held) h = next[h];
+        levels.push_back(level);
+        heirs.push_back(held);
+    }
+}
+
 std::size_t bytesOf(const Mixture<3>& m) {
     return m.support.capacity() * sizeof(float) * (1 + 3 + Mixture<3>::packed);
 }
@@ -78,14 +98,7 @@ void LevelBlocks::split(const Placed* first, const Placed* last, int depth,
         fresh.emplace(key, std::move(old->second));
         return;
     }
-    Mixture<3> level;
-    for (const std::uint32_t i : block.members) level.pushBack(base[i]);
-    for (int l = 1; l < params.levels; ++l) {
-        const auto size =
-            static_cast<std::size_t>(params.levelRatio * double(level.size()));
-        level = mergeToSize(level, std::max<std::size_t>(size, 1), params);
-        block.levels.push_back(level);
-    }
+    generate(block.members, base, params, block.levels, block.heirs);
     fresh.emplace(key, std::move(block));
     ++lastRegenerated_;
 }
@@ -106,13 +119,24 @@ const std::vector<Mixture<3>>& LevelBlocks::levels(const Mixture<3>& base,
     split(placed.data(), placed.data() + placed.size(), 0, base, params, fresh);
     blocks_ = std::move(fresh);
 
-    const auto upper = static_cast<std::size_t>(params.levels - 1);
-    levels_.assign(upper, {});
-    for (const auto& entry : blocks_)
-        for (std::size_t l = 0; l < upper; ++l) levels_[l].append(entry.second.levels[l]);
+    assemble(base.size(), static_cast<std::size_t>(params.levels - 1));
     changed_.assign(base.size(), false);
     stale_ = false;
     return levels_;
+}
+
+void LevelBlocks::assemble(std::size_t baseSize, std::size_t upperLevels) {
+    levels_.assign(upperLevels, {});
+    heirs_.assign(upperLevels, std::vector<std::uint32_t>(baseSize));
+    for (const auto& entry : blocks_) {
+        const Block& block = entry.second;
+        for (std::size_t l = 0; l < upperLevels; ++l) {
+            const auto first = static_cast<std::uint32_t>(levels_[l].size());
+            for (std::size_t m = 0; m < block.members.size(); ++m)
+                heirs_[l][block.members[m]] = first + block.heirs[l][m];
+            levels_[l].append(block.levels[l]);
+        }
+    }
 }
 
 std::size_t LevelBlocks::liveBytes() const {
@@ -124,6 +148,8 @@ std::size_t LevelBlocks::liveBytes() const {
         bytes += nodeBytes + sizeof(entry) +
                  entry.second.members.capacity() * sizeof(std::uint32_t);
         for (const Mixture<3>& level : entry.second.levels) bytes += bytesOf(level);
+        for (const auto& held : entry.second.heirs)
+            bytes += held.capacity() * sizeof(std::uint32_t);
     }
     return bytes;
 }

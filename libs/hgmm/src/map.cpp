@@ -1,68 +1,16 @@
 #include "hgmm/map.h"
 
-#include <atomic>
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <string>
 
-#include "hgmm/level_blocks.h"
+#include "hgmm/gaps.h"
 #include "hgmm/update.h"
+#include "map_derived.h"
+#include "storable.h"
 
 namespace hgmm {
-
-/// What is computed from the base. A copied or loaded map starts without it; the first
-/// reader, const and possibly one of several threads, builds it.
-class Map::Derived {
- public:
-    const ComponentIndex& index(const Mixture<3>& base) {
-        prepare(base);
-        return index_;
-    }
-
-    double logTotalSupport(const Mixture<3>& base) {
-        prepare(base);
-        return logTotal_;
-    }
-
-    const Mixture<3>& level(const Mixture<3>& base, const HierarchyParams& params,
-                            std::size_t level) {
-        prepare(base);
-        const std::lock_guard<std::mutex> lock(mutex_);
-        return blocks_.levels(base, params)[level - 1];
-    }
-
-    /// Follows changes of components, and additions, which come last. Not for concurrent
-    /// use.
-    void update(const Mixture<3>& base, const std::vector<std::uint32_t>& changed) {
-        for (const std::uint32_t i : changed) update(base, i);
-        while (index_.size() < base.size())
-            update(base, static_cast<std::uint32_t>(index_.size()));
-        logTotal_ = std::log(base.totalSupport());
-    }
-
-    std::size_t liveBytes() const { return index_.liveBytes() + blocks_.liveBytes(); }
-
- private:
-    void prepare(const Mixture<3>& base) {
-        if (ready_.load(std::memory_order_acquire)) return;
-        const std::lock_guard<std::mutex> lock(mutex_);
-        if (ready_.load(std::memory_order_relaxed)) return;
-        update(base, std::vector<std::uint32_t>());
-        ready_.store(true, std::memory_order_release);
-    }
-
-    void update(const Mixture<3>& base, std::uint32_t i) {
-        index_.update(base, i);
-        blocks_.update(i);
-    }
-
-    std::atomic<bool> ready_{false};
-    std::mutex mutex_;
-    ComponentIndex index_;
-    LevelBlocks blocks_;
-    double logTotal_ = 0;
-};
 
 namespace {
 
@@ -88,6 +36,8 @@ void MapParams::validate() const {
     cells.validate();
     em.validate();
     hierarchy.validate();
+    occupancy.validate();
+    contradiction.validate();
 }
 
 Map::Map(const MapParams& params) : derived_(std::make_unique<Derived>()) {
@@ -96,7 +46,7 @@ Map::Map(const MapParams& params) : derived_(std::make_unique<Derived>()) {
 Map::Map(const Map& o)
     : params_(o.params_),
       origin_(o.origin_),
-      base_(o.base_),
+      model_(o.model_),
       derived_(std::make_unique<Derived>()) {}
 Map::Map(Map&& o) noexcept = default;
 Map& Map::operator=(const Map& o) {
@@ -108,8 +58,18 @@ Map::~Map() = default;
 
 void Map::setParams(const MapParams& params) {
     params.validate();
+    if (!empty() && params.occupancy.freeSpace.freeSpaceModel !=
+                        params_.occupancy.freeSpace.freeSpaceModel)
+        throw std::invalid_argument(
+            "freeSpaceModel: a map that holds components keeps the model it was built "
+            "with");
     params_ = params;
     derived_ = std::make_unique<Derived>();
+}
+
+bool Map::freePerComponent() const {
+    return params_.occupancy.freeSpace.freeSpaceModel ==
+           static_cast<int>(FreeSpaceModel::perComponent);
 }
 
 void Map::clear() {
@@ -119,7 +79,8 @@ void Map::clear() {
 InsertReport Map::insert(const Scan& scan) {
     scan.validate();
     InsertReport report;
-    const Mixture<3> samples_sensor = filterScan(scan, params_.filter, &report.points);
+    Mixture<3> samples_sensor = filterScan(scan, params_.filter, &report.points);
+    bridgeGaps(samples_sensor, params_.cells);
     report.samples = samples_sensor.size();
     if (samples_sensor.empty()) return report;
 
@@ -127,45 +88,112 @@ InsertReport Map::insert(const Scan& scan) {
     const Pose T_local_sensor{scan.T_map_sensor.R, scan.T_map_sensor.t - origin_};
     const Mixture<3> samples = transformed(samples_sensor, T_local_sensor);
 
-    const ComponentIndex& index = derived_->index(base_);
-    const NoveltySplit split = splitByNovelty(samples, index, params_.novelty);
-    const std::vector<std::uint32_t> changed = updateKnown(base_, index, samples, split);
-
-    const std::size_t before = base_.size();
-    if (!split.novel.empty())
-        base_.append(
-            novelComponents(selected(samples, split.novel), T_local_sensor.t, params_));
-    derived_->update(base_, changed);
-
-    report.novelSamples = split.novel.size();
-    report.componentsUpdated = changed.size();
-    report.componentsAdded = base_.size() - before;
+    const std::vector<RayBundle> bundles =
+        insertSurfaces(samples, T_local_sensor.t, report);
+    if (!freePerComponent())
+        for (const std::uint32_t i :
+             model_.freeSpace.insert(bundles, T_local_sensor.t, derived_->clearance(*this),
+                                     params_.occupancy.band, params_.occupancy.freeSpace))
+            derived_->updateFree(*this, i);
+    contradict(samples, T_local_sensor.t, report);
+    derived_->finish(*this);
     return report;
 }
 
-const Mixture<3>& Map::mixture(std::size_t level) const {
-    if (level >= levelCount())
-        throw std::out_of_range("Map: no level " + std::to_string(level) + ", only 0 to " +
-                                std::to_string(levelCount() - 1));
-    return level == 0 ? base_ : derived_->level(base_, params_.hierarchy, level);
+std::vector<RayBundle> Map::insertSurfaces(const Mixture<3>& samples,
+                                           const Eigen::Vector3d& sensorOrigin,
+                                           InsertReport& report) {
+    Mixture<3>& surfaces = model_.surfaces;
+    const ComponentIndex& index = derived_->index(*this);
+    const Sides sides{model_.views, sensorOrigin};
+    const NoveltySplit split = splitByNovelty(samples, index, params_.novelty, &sides);
+    KnownUpdate known = updateKnown(surfaces, index, samples, split);
+    std::vector<RayBundle> bundles = std::move(known.shares);
+    for (std::size_t k = 0; k < known.changed.size(); ++k) {
+        const std::uint32_t i = known.changed[k];
+        const double before = surfaces.support[i] - bundles[k].support;
+        model_.views.set(
+            i, merged(model_.views[i], std::max(before, 1e-6),
+                      viewFrom(sensorOrigin, bundles[k].mean), bundles[k].support));
+    }
+    const std::size_t before = surfaces.size();
+    if (!split.novel.empty())
+        surfaces.append(
+            novelComponents(selected(samples, split.novel), sensorOrigin, params_));
+    for (std::size_t i = before; i < surfaces.size(); ++i) {
+        bundles.push_back(surfaces[i]);
+        model_.views.pushBack(viewFrom(sensorOrigin, bundles.back().mean));
+        known.changed.push_back(static_cast<std::uint32_t>(i));
+    }
+    for (std::size_t k = 0; k < known.changed.size(); ++k) {
+        if (freePerComponent())
+            addFreeOfSurface(known.changed[k], bundles[k], sensorOrigin);
+        derived_->updateSurface(*this, known.changed[k]);
+    }
+    report.novelSamples = split.novel.size();
+    report.componentsAdded = surfaces.size() - before;
+    report.componentsUpdated = known.changed.size() - report.componentsAdded;
+    return bundles;
 }
 
-double Map::logDensity(const Eigen::Vector3d& point_map) const {
-    if (empty()) return -std::numeric_limits<double>::infinity();
-    const ComponentIndex& index = derived_->index(base_);
-    const Eigen::Vector3f p = (point_map - origin_).cast<float>();
-    double density = -std::numeric_limits<double>::infinity();
-    index.visitCandidates(p.x(), p.y(), p.z(), [&](std::uint32_t j) {
-        density = logAddExp(density, std::log(double(base_.support[j])) +
-                                         double(index.factor(j).logPdf(p.data())));
-    });
-    return density - derived_->logTotalSupport(base_);
+void Map::addFreeOfSurface(std::uint32_t i, const RayBundle& bundle,
+                           const Eigen::Vector3d& sensorOrigin) {
+    const double range = (sensorOrigin - bundle.mean).norm();
+    const Gaussian<4> slab = freeSlab(bundle, sensorOrigin, 0.0, range);
+    Mixture<4>& free = model_.freeOfSurfaces;
+    if (i == free.size())
+        free.pushBack(storable(slab));
+    else
+        free.set(i, storable(mergeMoments(free[i], slab)));
+    derived_->updateFree(*this, i);
+}
+
+void Map::contradict(const Mixture<3>& samples, const Eigen::Vector3d& sensorOrigin,
+                     InsertReport& report) {
+    const ContradictionParams& params = params_.contradiction;
+    if (params.contradictedKeep == 1.0) return;
+    const RangeImage image(samples, sensorOrigin);
+    Eigen::Vector3d low = sensorOrigin, high = sensorOrigin;
+    for (int d = 0; d < 3; ++d) {
+        const auto [least, most] =
+            std::minmax_element(samples.mean[d].begin(), samples.mean[d].end());
+        low[d] = std::min<double>(low[d], *least);
+        high[d] = std::max<double>(high[d], *most);
+    }
+    std::vector<std::uint32_t> gone;
+    for (const std::uint32_t i : derived_->grid(*this).within(low, high)) {
+        Gaussian<3> g = model_.surfaces[i];
+        if (!isSeenThrough(g, image, sensorOrigin)) continue;
+        ++report.componentsContradicted;
+        g.support *= params.contradictedKeep;
+        model_.surfaces.set(i, g);
+        derived_->updateSurface(*this, i);
+        if (g.support < params.minSupport) gone.push_back(i);
+    }
+    // From the last on, so that the one that takes a removed one's place stays.
+    for (auto i = gone.rbegin(); i != gone.rend(); ++i) removeSurface(*i);
+    report.componentsRemoved = gone.size();
+}
+
+void Map::removeSurface(std::uint32_t i) {
+    model_.surfaces.removeSwap(i);
+    model_.views.removeSwap(i);
+    derived_->removeSurface(i);
+    if (!freePerComponent()) return;
+    model_.freeOfSurfaces.removeSwap(i);
+    derived_->removeFree(i);
 }
 
 std::size_t Map::liveBytes() const {
-    const std::size_t perComponent = sizeof(float) * (1 + 3 + Mixture<3>::packed);
-    return sizeof(Map) + sizeof(Derived) + base_.support.capacity() * perComponent +
-           derived_->liveBytes();
+    const std::size_t perSurface = sizeof(float) * (1 + 3 + Mixture<3>::packed + 4);
+    return sizeof(Map) + sizeof(Derived) + model_.surfaces.support.capacity() * perSurface +
+           model_.freeOfSurfaces.size() * sizeof(float) * (1 + 4 + Mixture<4>::packed) +
+           model_.freeSpace.liveBytes() + derived_->liveBytes();
+}
+
+bool Map::Model::operator==(const Model& o) const {
+    return surfaces == o.surfaces && views == o.views && freeSpace == o.freeSpace &&
+           freeOfSurfaces == o.freeOfSurfaces;
 }
 
 bool Map::operator==(const Map& o) const {
@@ -175,7 +203,7 @@ bool Map::operator==(const Map& o) const {
     std::size_t k = 0;
     forEachField(o.params_,
                  [&](const char*, const auto& v) { sameParams &= mine[k++] == double(v); });
-    return sameParams && origin_ == o.origin_ && base_ == o.base_;
+    return sameParams && origin_ == o.origin_ && model_ == o.model_;
 }
 
 }  // namespace hgmm

@@ -1,8 +1,10 @@
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <string>
 #include <type_traits>
 
+#include "component_codec.h"
 #include "hgmm/map.h"
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "saved maps are little-endian");
@@ -14,12 +16,20 @@ namespace hgmm {
 
 namespace {
 
-// Layout of version 1:
+// Layout:
 //   char[4] "HGMM", u32 version, u64 size of the whole buffer, u64 checksum of what
-//   follows, u32 fields, then each: u8 length, name, f64 value   (MapParams) f64[3] origin,
-//   u64 components, then f32 arrays: support, mean x y z, covariance xx xy xz yy yz zz
+//   follows, u32 fields, then each: u8 length, name, f64 value   (MapParams), f64[3] origin
+// version 1 goes on:
+//   surfaces as exact mixture; there are no views and no free space
+// version 2 goes on:
+//   u8 encoding
+//   exact: surfaces, four f32 arrays of views, free space with i8 octaves behind it, free
+//   space of surfaces
+//   compact: u64 bytes, then encodeSurfaces; twice u64 bytes, then encodeFree
+// An exact mixture is u64 components, then f32 arrays: support, means, covariances
+// (packed).
 constexpr char kMagic[4] = {'H', 'G', 'M', 'M'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kHeader = 24;
 
 /// 64-bit checksum, eight bytes at a time: copies inside a particle filter go through here.
@@ -74,6 +84,12 @@ class Reader {
         left_ -= n * sizeof(T);
     }
     std::size_t left() const { return left_; }
+    const std::uint8_t* here() const { return data_; }
+    /// @param n at most left()
+    void skip(std::size_t n) {
+        data_ += n;
+        left_ -= n;
+    }
 
  private:
     const std::uint8_t* data_;
@@ -123,12 +139,20 @@ MapParams getParams(Reader& in) {
     return params;
 }
 
-Mixture<3> getMixture(Reader& in) {
-    constexpr std::size_t bytesPerComponent = sizeof(float) * (1 + 3 + Mixture<3>::packed);
+template <int D>
+void putMixture(Writer& out, const Mixture<D>& mixture) {
+    out.put(static_cast<std::uint64_t>(mixture.size()));
+    forEachArray(mixture,
+                 [&](const std::vector<float>& a) { out.put(a.data(), a.size()); });
+}
+
+template <int D>
+Mixture<D> getMixture(Reader& in) {
+    constexpr std::size_t bytesPerComponent = sizeof(float) * (1 + D + Mixture<D>::packed);
     const auto n = in.get<std::uint64_t>();
     if (n > in.left() / bytesPerComponent)
         throw FormatError("saved map: it ends too early");
-    Mixture<3> mixture;
+    Mixture<D> mixture;
     forEachArray(mixture, [&](std::vector<float>& array) {
         array.resize(n);
         in.get(array.data(), n);
@@ -136,17 +160,41 @@ Mixture<3> getMixture(Reader& in) {
     return mixture;
 }
 
+/// A compact section: its length, then what `encode` appends.
+template <typename Encode>
+void putSection(Writer& out, Encode&& encode) {
+    const std::size_t at = out.buffer.size();
+    out.put(std::uint64_t{0});
+    encode(out.buffer);
+    const std::uint64_t bytes = out.buffer.size() - at - sizeof(std::uint64_t);
+    std::memcpy(out.buffer.data() + at, &bytes, sizeof(bytes));
+}
+
+template <typename Decode>
+void getSection(Reader& in, Decode&& decode) {
+    const auto bytes = in.get<std::uint64_t>();
+    if (bytes > in.left()) throw FormatError("saved map: it ends too early");
+    std::size_t used = 0;
+    try {
+        used = decode(in.here(), static_cast<std::size_t>(bytes));
+    } catch (const std::out_of_range& e) {
+        throw FormatError(e.what());
+    }
+    if (used != bytes) throw FormatError("saved map: bytes are left over in a section");
+    in.skip(static_cast<std::size_t>(bytes));
+}
+
 /// Returns a reader behind the header of a buffer that is whole and undamaged.
-Reader openBuffer(const std::uint8_t* data, std::size_t size) {
+Reader openBuffer(const std::uint8_t* data, std::size_t size, std::uint32_t& version) {
     Reader in(data, size);
     char magic[4] = {};
     if (size >= sizeof(magic)) in.get(magic, sizeof(magic));
     if (std::memcmp(magic, kMagic, sizeof(magic)) != 0)
         throw FormatError("not a saved HGMM map");
-    const auto version = in.get<std::uint32_t>();
-    if (version != kVersion)
+    version = in.get<std::uint32_t>();
+    if (version < 1 || version > kVersion)
         throw FormatError("saved map of format version " + std::to_string(version) +
-                          ": this library reads version " + std::to_string(kVersion));
+                          ": this library reads versions 1 to " + std::to_string(kVersion));
     const auto whole = in.get<std::uint64_t>();
     if (whole != size)
         throw FormatError("saved map: " + std::to_string(whole) + " bytes were written, " +
@@ -156,19 +204,122 @@ Reader openBuffer(const std::uint8_t* data, std::size_t size) {
     return in;
 }
 
+std::vector<int> octavesOf(const FreeSpace& space) {
+    std::vector<int> octaves;
+    for (std::size_t i = 0; i < space.mixture().size(); ++i)
+        octaves.push_back(space.octave(i));
+    return octaves;
+}
+
+FreeSpace freeSpaceFrom(const Mixture<4>& mixture, const std::vector<int>& octaves) {
+    FreeSpace space;
+    for (std::size_t i = 0; i < mixture.size(); ++i) {
+        if (std::abs(octaves[i]) > 40)
+            throw FormatError("saved map: the octave of a free component is out of range");
+        space.pushBack(mixture[i], octaves[i]);
+    }
+    return space;
+}
+
+template <int D>
+void checkMixture(const Mixture<D>& mixture) {
+    try {
+        mixture.check();
+    } catch (const std::logic_error& e) {
+        throw FormatError(std::string("saved map: ") + e.what());
+    }
+}
+
 }  // namespace
 
-std::vector<std::uint8_t> Map::save() const {
+/// Reads and writes what Map::Model holds.
+class ModelArchive {
+ public:
+    using Model = Map::Model;
+
+    static void put(Writer& out, const Model& model, Encoding encoding) {
+        out.put(static_cast<std::uint8_t>(encoding));
+        const std::vector<int> octaves = octavesOf(model.freeSpace);
+        if (encoding == Encoding::compact) {
+            putSection(out,
+                       [&](auto& b) { encodeSurfaces(model.surfaces, model.views, b); });
+            putSection(out,
+                       [&](auto& b) { encodeFree(model.freeSpace.mixture(), octaves, b); });
+            const std::vector<int> none(model.freeOfSurfaces.size(), 0);
+            putSection(out, [&](auto& b) { encodeFree(model.freeOfSurfaces, none, b); });
+            return;
+        }
+        putMixture(out, model.surfaces);
+        model.views.forEachArray(
+            [&](const std::vector<float>& a) { out.put(a.data(), a.size()); });
+        putMixture(out, model.freeSpace.mixture());
+        for (const int octave : octaves) out.put(static_cast<std::int8_t>(octave));
+        putMixture(out, model.freeOfSurfaces);
+    }
+
+    static Model get(Reader& in, std::uint32_t version) {
+        Model model;
+        const auto encoding = version == 1 ? static_cast<std::uint8_t>(Encoding::exact)
+                                           : in.get<std::uint8_t>();
+        if (encoding == static_cast<std::uint8_t>(Encoding::compact))
+            getCompact(in, model);
+        else if (encoding == static_cast<std::uint8_t>(Encoding::exact))
+            getExact(in, version, model);
+        else
+            throw FormatError("saved map: unknown encoding " + std::to_string(encoding));
+        checkMixture(model.surfaces);
+        checkMixture(model.freeSpace.mixture());
+        checkMixture(model.freeOfSurfaces);
+        return model;
+    }
+
+ private:
+    static void getExact(Reader& in, std::uint32_t version, Model& model) {
+        model.surfaces = getMixture<3>(in);
+        for (std::size_t i = 0; i < model.surfaces.size(); ++i) model.views.pushBack({});
+        if (version == 1) return;
+        model.views.forEachArray(
+            [&](std::vector<float>& array) { in.get(array.data(), array.size()); });
+        checkViews(model.views);
+        const Mixture<4> free = getMixture<4>(in);
+        std::vector<int> octaves(free.size());
+        for (int& octave : octaves) octave = in.get<std::int8_t>();
+        model.freeSpace = freeSpaceFrom(free, octaves);
+        model.freeOfSurfaces = getMixture<4>(in);
+    }
+
+    static void getCompact(Reader& in, Model& model) {
+        getSection(in, [&](const std::uint8_t* data, std::size_t bytes) {
+            return decodeSurfaces(data, bytes, model.surfaces, model.views);
+        });
+        Mixture<4> free;
+        std::vector<int> octaves, none;
+        getSection(in, [&](const std::uint8_t* data, std::size_t bytes) {
+            return decodeFree(data, bytes, free, octaves);
+        });
+        model.freeSpace = freeSpaceFrom(free, octaves);
+        getSection(in, [&](const std::uint8_t* data, std::size_t bytes) {
+            return decodeFree(data, bytes, model.freeOfSurfaces, none);
+        });
+    }
+
+    static void checkViews(const Views& views) {
+        views.forEachArray([](const std::vector<float>& array) {
+            for (const float v : array)
+                if (!std::isfinite(v)) throw FormatError("saved map: a view is not finite");
+        });
+    }
+};
+
+std::vector<std::uint8_t> Map::save(Encoding encoding) const {
     Writer out;
-    out.buffer.reserve(1024 + base_.size() * sizeof(float) * (1 + 3 + Mixture<3>::packed));
     out.put(kMagic, sizeof(kMagic));
     out.put(kVersion);
     out.put(std::uint64_t{0});
     out.put(std::uint64_t{0});
     putParams(out, params_);
     out.put(origin_.data(), 3);
-    out.put(static_cast<std::uint64_t>(base_.size()));
-    forEachArray(base_, [&](const std::vector<float>& a) { out.put(a.data(), a.size()); });
+    ModelArchive::put(out, model_, encoding);
 
     const std::uint64_t size = out.buffer.size();
     const std::uint64_t sum = checksum(out.buffer.data() + kHeader, size - kHeader);
@@ -178,17 +329,16 @@ std::vector<std::uint8_t> Map::save() const {
 }
 
 Map Map::load(const std::uint8_t* data, std::size_t size) {
-    Reader in = openBuffer(data, size);
+    std::uint32_t version = 0;
+    Reader in = openBuffer(data, size, version);
     Map map(getParams(in));
     in.get(map.origin_.data(), 3);
-    map.base_ = getMixture(in);
-    if (in.left() != 0) throw FormatError("saved map: bytes are left over at its end");
     if (!map.origin_.allFinite()) throw FormatError("saved map: its origin is not finite");
-    try {
-        map.base_.check();
-    } catch (const std::logic_error& e) {
-        throw FormatError(std::string("saved map: ") + e.what());
-    }
+    map.model_ = ModelArchive::get(in, version);
+    if (in.left() != 0) throw FormatError("saved map: bytes are left over at its end");
+    if (map.freePerComponent() &&
+        map.model_.freeOfSurfaces.size() != map.model_.surfaces.size())
+        throw FormatError("saved map: free components are missing");
     return map;
 }
 

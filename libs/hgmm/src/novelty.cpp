@@ -13,14 +13,38 @@ namespace {
 /// threads.
 constexpr std::size_t kChunk = 256;
 
+/// Whether a component was seen from the side of `direction` (towards a sensor).
+bool sameSide(const ComponentIndex::Factor& factor, const Eigen::Vector3d& view,
+              const Eigen::Vector3d& direction) {
+    double product = 0;
+    for (int row = 0; row < 3; ++row) {
+        double a = 0, b = 0;
+        for (int col = 0; col <= row; ++col) {
+            a += double(factor.factor(row, col)) * view[col];
+            b += double(factor.factor(row, col)) * direction[col];
+        }
+        product += a * b;
+    }
+    return product > 0 || view.isZero();
+}
+
 void findNeighbours(const Mixture<3>& samples, std::size_t begin, std::size_t end,
-                    const ComponentIndex& index, float maxSquared, Neighbourhoods& found) {
+                    const ComponentIndex& index, float maxSquared, const Sides* sides,
+                    Neighbourhoods& found) {
     for (std::size_t i = begin; i < end; ++i) {
         const float point[3] = {samples.mean[0][i], samples.mean[1][i], samples.mean[2][i]};
         const std::size_t first = found.component.size();
+        Eigen::Vector3d towardsSensor = Eigen::Vector3d::Zero();
+        if (sides != nullptr)
+            towardsSensor =
+                sides->sensorOrigin - Eigen::Vector3d(point[0], point[1], point[2]);
         index.visitCandidates(point[0], point[1], point[2], [&](std::uint32_t j) {
-            if (index.factor(j).squaredMahalanobis(point) <= maxSquared)
-                found.component.push_back(j);
+            const ComponentIndex::Factor& factor = index.factor(j);
+            if (factor.squaredMahalanobis(point) > maxSquared) return;
+            if (sides != nullptr &&
+                !sameSide(factor, sides->views[j].direction, towardsSensor))
+                return;
+            found.component.push_back(j);
         });
         std::sort(found.component.begin() + static_cast<std::ptrdiff_t>(first),
                   found.component.end());
@@ -35,7 +59,7 @@ void NoveltyParams::validate() const {
 }
 
 NoveltySplit splitByNovelty(const Mixture<3>& samples, const ComponentIndex& index,
-                            const NoveltyParams& params) {
+                            const NoveltyParams& params, const Sides* sides) {
     const auto maxSquared =
         static_cast<float>(params.maxMahalanobis * params.maxMahalanobis);
     const std::size_t chunks = (samples.size() + kChunk - 1) / kChunk;
@@ -44,7 +68,7 @@ NoveltySplit splitByNovelty(const Mixture<3>& samples, const ComponentIndex& ind
     for (std::size_t c = 0; c < chunks; ++c) {
         found[c].begin.push_back(0);
         findNeighbours(samples, c * kChunk, std::min(samples.size(), (c + 1) * kChunk),
-                       index, maxSquared, found[c]);
+                       index, maxSquared, sides, found[c]);
     }
 
     NoveltySplit split;

@@ -43,11 +43,19 @@ Gaussian<3> updated(const Gaussian<3>& old, const Addition& a) {
     return storable(g);
 }
 
+Gaussian<3> shareOf(const Gaussian<3>& old, const Addition& a) {
+    Gaussian<3> g;
+    g.support = a.support;
+    const Eigen::Vector3d shift = a.sum / a.support;
+    g.mean = old.mean + shift;
+    g.covariance = a.sumOuter / a.support - shift * shift.transpose();
+    return g;
+}
+
 }  // namespace
 
-std::vector<std::uint32_t> updateKnown(Mixture<3>& mixture, const ComponentIndex& index,
-                                       const Mixture<3>& samples,
-                                       const NoveltySplit& split) {
+KnownUpdate updateKnown(Mixture<3>& mixture, const ComponentIndex& index,
+                        const Mixture<3>& samples, const NoveltySplit& split) {
     std::vector<Addition> additions;
     std::vector<std::uint32_t> changed = split.neighbourhoods.component;
     std::sort(changed.begin(), changed.end());
@@ -74,9 +82,16 @@ std::vector<std::uint32_t> updateKnown(Mixture<3>& mixture, const ComponentIndex
             a.sumOuter += support * (sample.covariance + d * d.transpose());
         }
     }
-    for (std::size_t c = 0; c < changed.size(); ++c)
-        mixture.set(changed[c], updated(mixture[changed[c]], additions[c]));
-    return changed;
+    KnownUpdate result;
+    for (std::size_t c = 0; c < changed.size(); ++c) {
+        // A component far less likely than its neighbours may be given next to nothing.
+        if (!(additions[c].support > 1e-6)) continue;
+        const Gaussian<3> old = mixture[changed[c]];
+        mixture.set(changed[c], updated(old, additions[c]));
+        result.changed.push_back(changed[c]);
+        result.shares.push_back(shareOf(old, additions[c]));
+    }
+    return result;
 }
 
 }  // namespace hgmm

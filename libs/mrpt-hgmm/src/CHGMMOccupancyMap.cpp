@@ -6,7 +6,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "hgmm/mrpt_bridge/ellipsoids.h"
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
+#include "hgmm/mrpt_bridge/octomap_voxels.h"
 #include "map_archive.h"
 #include "option_fields.h"
 
@@ -33,7 +35,9 @@ MRPT_INITIALIZER(registerHgmmMap) {
 }
 
 void CHGMMOccupancyMap::saveToFile(const std::string& fileName) const {
-    bridge::saveMapFile(*this, fileName);
+    CHGMMOccupancyMap compact(*this);
+    compact.encoding_ = ::hgmm::Encoding::compact;
+    bridge::saveMapFile(compact, fileName);
 }
 
 void CHGMMOccupancyMap::loadFromFile(const std::string& fileName) {
@@ -63,8 +67,15 @@ void CHGMMOccupancyMap::saveMetricMapRepresentationToFile(const std::string& pre
 }
 
 void CHGMMOccupancyMap::getVisualizationInto(mrpt::opengl::CSetOfObjects& objects) const {
-    if (genericMapParams.enableSaveAs3DObject)
-        bridge::appendEllipsoids(model_, renderOptions, objects);
+    if (!genericMapParams.enableSaveAs3DObject) return;
+    bridge::appendEllipsoids(model_, renderOptions, objects);
+    // After what they would hide: OpenGL blends with what is there already.
+    bridge::appendVoxels(model_, renderOptions, objects);
+    bridge::appendFreeSpace(model_, renderOptions, objects);
+}
+
+void CHGMMOccupancyMap::getAsOctoMapVoxels(mrpt::opengl::COctoMapVoxels& gl_obj) const {
+    bridge::fillOctoMapVoxels(model_, renderOptions, gl_obj);
 }
 
 void CHGMMOccupancyMap::auxParticleFilterCleanUp() {
@@ -76,7 +87,7 @@ uint8_t CHGMMOccupancyMap::serializeGetVersion() const {
 }
 
 void CHGMMOccupancyMap::serializeTo(mrpt::serialization::CArchive& out) const {
-    bridge::writeMap(out, *this);
+    bridge::writeMap(out, *this, encoding_);
 }
 
 void CHGMMOccupancyMap::serializeFrom(mrpt::serialization::CArchive& in, uint8_t version) {

@@ -13,10 +13,11 @@ namespace hgmm::mrpt_bridge {
 
 namespace {
 
-// Layout of version 0: u8 flags of the generic map parameters; insertion, likelihood and
+// Layout: u8 flags of the generic map parameters; insertion, likelihood and
 // render options, each as
 //   u8 fields, then each: u8 length, name, f64 value
-// then u64 bytes and the buffer of hgmm::Map::save.
+// then u64 bytes and the buffer of hgmm::Map::save. Version 1 differs from 0 in the options
+// that it holds.
 
 [[noreturn]] void fail(const std::string& what) {
     throw std::runtime_error("CHGMMOccupancyMap: " + what);
@@ -53,9 +54,15 @@ void writeOptions(CArchive& out, Options options) {
     }
 }
 
+/// Options of version 0 that have no counterpart now: how a stored model was built, which
+/// nothing depends on.
+bool isRetired(const std::string& name) {
+    return name == "leafPerRange" || name == "cellPerRange";
+}
+
 /// Fields are found by name; one that is not stored keeps its default.
 template <typename Options>
-Options readOptions(CArchive& in) {
+Options readOptions(CArchive& in, std::uint8_t version) {
     Options options;
     const OptionFields fields = fieldsOf(options);
     const auto count = in.ReadAs<std::uint8_t>();
@@ -65,7 +72,8 @@ Options readOptions(CArchive& in) {
         const auto value = in.ReadAs<double>();
         const auto field =
             std::find_if(fields.begin(), fields.end(),
-                         [&](const OptionField& f) { return name == f.name; });
+                         [&](const OptionField& f) { return f.isStoredAs(name); });
+        if (field == fields.end() && version == 0 && isRetired(name)) continue;
         if (field == fields.end())
             fail("it holds an option '" + name + "' that this version does not know");
         setNumber(*field, value);
@@ -88,12 +96,12 @@ std::vector<std::uint8_t> readBuffer(CArchive& in) {
 
 }  // namespace
 
-void writeMap(CArchive& out, const CHGMMOccupancyMap& map) {
+void writeMap(CArchive& out, const CHGMMOccupancyMap& map, Encoding encoding) {
     out << flagsOf(map.genericMapParams);
     writeOptions(out, map.insertionOptions);
     writeOptions(out, map.likelihoodOptions);
     writeOptions(out, map.renderOptions);
-    const std::vector<std::uint8_t> buffer = map.model().save();
+    const std::vector<std::uint8_t> buffer = map.model().save(encoding);
     out << static_cast<std::uint64_t>(buffer.size());
     out.WriteBuffer(buffer.data(), buffer.size());
 }
@@ -104,9 +112,9 @@ void readMap(CArchive& in, std::uint8_t version, CHGMMOccupancyMap& map) {
              ", newer than this program's " + std::to_string(kArchiveVersion));
     mrpt::maps::TMapGenericParams generic;
     setFlags(in.ReadAs<std::uint8_t>(), generic);
-    const auto insertion = readOptions<CHGMMOccupancyMap::TInsertionOptions>(in);
-    const auto likelihood = readOptions<CHGMMOccupancyMap::TLikelihoodOptions>(in);
-    const auto render = readOptions<CHGMMOccupancyMap::TRenderOptions>(in);
+    const auto insertion = readOptions<CHGMMOccupancyMap::TInsertionOptions>(in, version);
+    const auto likelihood = readOptions<CHGMMOccupancyMap::TLikelihoodOptions>(in, version);
+    const auto render = readOptions<CHGMMOccupancyMap::TRenderOptions>(in, version);
     insertion.params.validate();
     likelihood.validate();
     render.validate();

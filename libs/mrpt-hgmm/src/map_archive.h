@@ -8,9 +8,10 @@
 namespace hgmm::mrpt_bridge {
 
 /// Version of the layout that writeMap uses; readMap knows it and all before.
-constexpr std::uint8_t kArchiveVersion = 0;
+constexpr std::uint8_t kArchiveVersion = 1;
 
-void writeMap(mrpt::serialization::CArchive& out, const mrpt::maps::CHGMMOccupancyMap& map);
+void writeMap(mrpt::serialization::CArchive& out, const mrpt::maps::CHGMMOccupancyMap& map,
+              Encoding encoding);
 /// Throws std::runtime_error for a version, option or buffer that cannot be used; the map
 /// is unchanged then.
 void readMap(mrpt::serialization::CArchive& in, std::uint8_t version,

@@ -15,6 +15,11 @@ namespace hgmm::mrpt_bridge {
 struct OptionField {
     const char* name;  ///< of the member and of the key
     std::variant<double*, int*, bool*> member;
+    const char* formerName = nullptr;  ///< under which version 0 of the archive holds it
+
+    bool isStoredAs(const std::string& stored) const {
+        return stored == name || (formerName && stored == formerName);
+    }
 };
 using OptionFields = std::vector<OptionField>;
 

@@ -36,10 +36,20 @@ OptionFields fieldsOf(Likelihood& options) {
 }
 
 OptionFields fieldsOf(Render& options) {
-    return {{"sigmas", &options.sigmas},
-            {"level", &options.level},
+    return {{"level", &options.level},
+            {"drawEllipsoids", &options.drawEllipsoids},
+            {"drawFreeSpace", &options.drawFreeSpace},
+            {"drawVoxels", &options.drawVoxels},
+            {"sigmas", &options.sigmas},
             {"maxEllipsoids", &options.maxEllipsoids},
-            {"colourByWeight", &options.colourByWeight}};
+            {"colour", &options.colour, "colourByWeight"},
+            {"voxelResolution_m", &options.voxelResolution_m},
+            {"minOccupied", &options.minOccupied},
+            {"generateOccupiedVoxels", &options.generateOccupiedVoxels},
+            {"visibleOccupiedVoxels", &options.visibleOccupiedVoxels},
+            {"generateFreeVoxels", &options.generateFreeVoxels},
+            {"visibleFreeVoxels", &options.visibleFreeVoxels},
+            {"generateGridLines", &options.generateGridLines}};
 }
 
 void LikelihoodParams::validate() const {
@@ -57,9 +67,13 @@ bool LikelihoodParams::operator==(const LikelihoodParams& o) const {
 }
 
 void RenderParams::validate() const {
-    requireInRange("sigmas", sigmas, 0.01, 10.0);
     requireInRange("level", level, 0, 1000);
+    requireInRange("sigmas", sigmas, 0.01, 10.0);
     requireInRange("maxEllipsoids", maxEllipsoids, 1, 1e7);
+    requireInRange("colour", colour, 0, static_cast<int>(EllipsoidColour::kDeviation));
+    if (voxelResolution_m != 0.0)
+        requireInRange("voxelResolution_m", voxelResolution_m, 1e-4, 1e4);
+    requireInRange("minOccupied", minOccupied, 0.01, 0.99);
 }
 
 namespace {

@@ -7,8 +7,9 @@ namespace hgmm {
 /// The first guess of a mixture: moments of the samples in each cell of a voxel grid,
 /// thesis 3.3.4 ("a voxel-grid filter ... indicative of the overestimate for lambda_f").
 struct CellParams {
-    double cellPerRange = 0.12;  ///< cell edge per range of the sample [1], > 0
-    double minCell_m = 0.04;     ///< smallest cell edge [m], > 0
+    /// Cell edge at range 1 m [m], > 0; grows with the square root of the range.
+    double cellAtOneMetre_m = 0.22;
+    double minCell_m = 0.04;  ///< smallest cell edge [m], > 0
     int minSamples = 5;  ///< a cell with fewer joins a cell twice its size [count], >= 1
 
     /// Throws std::invalid_argument naming the field.

@@ -8,14 +8,16 @@
 namespace hgmm {
 
 /// Reduces a scan to samples: one per occupied leaf, with the moments of the leaf's points.
-/// Leaves grow with the range in octaves, because so does the spacing of a sensor's rays.
+/// Leaves grow in octaves, with the square root of the range: midway between the spacing of
+/// a sensor's rays, which grows with the range, and the detail that a map is wanted for,
+/// which does not.
 struct FilterParams {
-    double leafPerRange = 0.03;    ///< leaf edge per range [1], (0, 1]
-    double minLeaf_m = 0.01;       ///< smallest leaf edge [m], > 0
-    double minRange_m = 0.1;       ///< nearer points are dropped [m], >= 0
-    double maxRange_m = 300.0;     ///< farther points are dropped [m], > minRange_m
-    double noiseStd_m = 0.003;     ///< range noise at range 0, one sigma [m], > 0
-    double noisePerRange = 0.002;  ///< its growth with range [m/m], >= 0
+    double leafAtOneMetre_m = 0.04;  ///< leaf edge at range 1 m [m], > 0
+    double minLeaf_m = 0.01;         ///< smallest leaf edge [m], > 0
+    double minRange_m = 0.1;         ///< nearer points are dropped [m], >= 0
+    double maxRange_m = 300.0;       ///< farther points are dropped [m], > minRange_m
+    double noiseStd_m = 0.003;       ///< range noise at range 0, one sigma [m], > 0
+    double noisePerRange = 0.001;    ///< its growth with range [m/m], >= 0
 
     /// Throws std::invalid_argument naming the field.
     void validate() const;

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include "hgmm/knee.h"
@@ -13,7 +14,7 @@ struct HierarchyParams {
     double similarityStep = 0.2;   ///< added to lambda_d after each pass [nat], >= 0
     /// lambda_d that the fidelity threshold may not need more than [nat], > 0. Adjacent
     /// tiles of one plane differ by about 6 nat, the two sides of an edge by tens.
-    double similarityMax = 8.0;
+    double similarityMax = 5.0;
     double levelRatio =
         0.7;  ///< a map's level has at most so much of the one below [1], (0, 1)
 
@@ -36,9 +37,12 @@ Mixture<D> mergePass(const Mixture<D>& mixture, double similarity);
 
 /// Passes with rising similarity until at most `size` components are left, or nothing
 /// merges.
+/// @param heirs if given, receives the index in the result of the component that took over
+/// each component of `mixture`
 template <int D>
 Mixture<D> mergeToSize(const Mixture<D>& mixture, std::size_t size,
-                       const HierarchyParams& params);
+                       const HierarchyParams& params,
+                       std::vector<std::uint32_t>* heirs = nullptr);
 
 /// Merges `reference` (an overestimate of the fidelity threshold) in passes, takes the knee
 /// of the divergence curve KL(G_0 || G_l) for the fidelity threshold (findKnee()), or the

@@ -26,11 +26,19 @@ class LevelBlocks {
 
     /// Notes that component i of the base changed, or was added (i is then the next one).
     void update(std::uint32_t i);
+    /// Follows Mixture::removeSwap(i) of the base.
+    void removeSwap(std::uint32_t i) { update(i); }
 
     /// Levels 1 .. params.levels - 1 at [0 ..]; regenerates blocks that changed since the
     /// last call.
     const std::vector<Mixture<3>>& levels(const Mixture<3>& base,
                                           const HierarchyParams& params);
+
+    /// Component of level `level` >= 1 that holds each component of the base, as of the
+    /// last call of levels().
+    const std::vector<std::uint32_t>& heirs(std::size_t level) const {
+        return heirs_[level - 1];
+    }
 
     /// Blocks that the last call of levels() generated anew.
     std::size_t lastRegenerated() const { return lastRegenerated_; }
@@ -44,6 +52,8 @@ class LevelBlocks {
     struct Block {
         std::vector<std::uint32_t> members;  ///< base components, rising
         std::vector<Mixture<3>> levels;      ///< from level 1 up
+        /// Per level, for each member: its component there.
+        std::vector<std::vector<std::uint32_t>> heirs;
     };
     struct Placed {
         std::uint64_t morton;
@@ -52,11 +62,13 @@ class LevelBlocks {
 
     void split(const Placed* first, const Placed* last, int depth, const Mixture<3>& base,
                const HierarchyParams& params, std::map<Key, Block>& fresh);
+    void assemble(std::size_t baseSize, std::size_t upperLevels);
     bool isCurrent(const Block& block, const std::vector<std::uint32_t>& members) const;
 
     std::map<Key, Block> blocks_;
     std::vector<bool> changed_;  ///< per base component
     std::vector<Mixture<3>> levels_;
+    std::vector<std::vector<std::uint32_t>> heirs_;
     bool stale_ = true;
     std::size_t lastRegenerated_ = 0;
 };

@@ -3,23 +3,35 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "hgmm/filter.h"
+#include "hgmm/free_space.h"
 #include "hgmm/map_params.h"
 #include "hgmm/mixture.h"
+#include "hgmm/occupancy.h"
 #include "hgmm/scan.h"
+#include "hgmm/views.h"
 
 namespace hgmm {
 
 /// What one scan did to the map.
 struct InsertReport {
     FilterCounts points;
-    std::size_t samples = 0;            ///< after the filter
-    std::size_t novelSamples = 0;       ///< not explained by the map before this scan
-    std::size_t componentsUpdated = 0;  ///< that absorbed known samples
-    std::size_t componentsAdded = 0;    ///< for novel samples
+    std::size_t samples = 0;                 ///< after the filter
+    std::size_t novelSamples = 0;            ///< not explained by the map before this scan
+    std::size_t componentsUpdated = 0;       ///< that absorbed known samples
+    std::size_t componentsAdded = 0;         ///< for novel samples
+    std::size_t componentsContradicted = 0;  ///< that the scan saw through
+    std::size_t componentsRemoved = 0;       ///< of them, for want of support
+};
+
+/// How Map::save writes components.
+enum class Encoding : std::uint8_t {
+    exact,   ///< every bit: copies go on as the original would
+    compact  ///< a quarter of the size, errors well below a component's own size
 };
 
 /// A buffer that Map::load cannot use: truncated, corrupt, foreign, or of a newer version.
@@ -28,8 +40,8 @@ class FormatError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// A hierarchy of Gaussian mixtures over what range sensors saw (thesis chapter 3), updated
-/// scan by scan.
+/// A hierarchy of Gaussian mixtures over what range sensors saw (thesis chapter 3), with
+/// the free space that their rays passed (chapter 4), updated scan by scan.
 ///
 /// Components are floats in a local frame whose axes are those of the map and whose origin
 /// is fixed, on a lattice of whole metres, by the first scan; poses and points cross this
@@ -48,12 +60,13 @@ class Map {
     /// For scans inserted from now on. Throws like the constructor.
     void setParams(const MapParams& params);
 
-    /// filter -> novelty split -> { known: update | novel: EM, hierarchy, append }.
+    /// filter -> novelty split -> { known: update | novel: EM, hierarchy, append }, then
+    /// contradictions by rays that pass through surfaces, then free space.
     /// Throws std::invalid_argument for a malformed scan (Scan::validate), leaving the map
     /// as it was; a scan without usable points changes nothing.
     InsertReport insert(const Scan& scan);
 
-    bool empty() const { return base_.empty(); }
+    bool empty() const { return model_.surfaces.empty(); }
     void clear();
 
     /// Origin of the local frame in the map frame [m].
@@ -66,31 +79,80 @@ class Map {
     /// date here, where the base changed. The reference holds until the next non-const
     /// call. Throws std::out_of_range for a level that does not exist.
     const Mixture<3>& mixture(std::size_t level = 0) const;
+    /// Free-space components over (X, W) (thesis 4.2) of a level, in the local frame. As
+    /// for mixture().
+    const Mixture<4>& freeMixture(std::size_t level = 0) const;
 
     /// log p(point) under the base level [nat], components farther than
     /// ComponentIndex::kSigmas left out: -infinity where there are none within. Throws
     /// nothing.
     double logDensity(const Eigen::Vector3d& point_map) const;
 
+    /// Occupied, free or unknown, with the distance to the surface and its variance (thesis
+    /// 4.3). A point that is not finite is unknown. Throws std::out_of_range for a level
+    /// that does not exist.
+    Occupancy occupancy(const Eigen::Vector3d& point_map, std::size_t level = 0) const;
+    /// The same for n points, on all threads: answers are those of single queries, bit for
+    /// bit.
+    void occupancy(const Eigen::Vector3d* points_map, std::size_t n, Occupancy* answers,
+                   std::size_t level = 0) const;
+    /// Gradient of Occupancy::occupied [1/m]; zero where nothing was seen.
+    Eigen::Vector3d occupancyGradient(const Eigen::Vector3d& point_map,
+                                      std::size_t level = 0) const;
+    /// Follows a ray to the first point whose P(occ) reaches params.minOccupied; nothing if
+    /// there is none. `direction_map` need not be of unit length. Throws
+    /// std::invalid_argument for a direction that is zero or not finite, or params out of
+    /// range.
+    std::optional<RayHit> castRay(const Eigen::Vector3d& origin_map,
+                                  const Eigen::Vector3d& direction_map,
+                                  const RayCastParams& params = {},
+                                  std::size_t level = 0) const;
+
     /// Versioned, little-endian, self-describing; parameters included. Derived data (index,
-    /// upper levels) is left out and rebuilt when first needed.
-    std::vector<std::uint8_t> save() const;
+    /// upper levels) is left out and rebuilt when first needed. A map loaded from a compact
+    /// buffer saves to the same buffer again.
+    std::vector<std::uint8_t> save(Encoding encoding = Encoding::compact) const;
     /// Throws FormatError.
     static Map load(const std::uint8_t* data, std::size_t size);
 
     /// Heap held by the map, index and levels included [bytes].
     std::size_t liveBytes() const;
 
-    /// Same parameters, origin and base components, bit for bit.
+    /// Views of a level's components, in its order. As for mixture().
+    const Views& views(std::size_t level = 0) const;
+
+    /// Same parameters, origin, components and views, bit for bit.
     bool operator==(const Map& o) const;
     bool operator!=(const Map& o) const { return !(*this == o); }
 
  private:
-    class Derived;  // index and upper levels: rebuilt when first needed, never saved
+    friend class ModelArchive;  // saves and loads the model
+    class Derived;  // index, upper levels, query models: rebuilt when needed, never saved
+
+    /// What is saved.
+    struct Model {
+        Mixture<3> surfaces;        ///< the base
+        Views views;                ///< of the base
+        FreeSpace freeSpace;        ///< empty with FreeSpaceModel::perComponent
+        Mixture<4> freeOfSurfaces;  ///< one per surface with FreeSpaceModel::perComponent
+
+        bool operator==(const Model& o) const;
+    };
+
+    bool freePerComponent() const;
+    /// Returns what the scan gave to each component that it changed or added.
+    std::vector<RayBundle> insertSurfaces(const Mixture<3>& samples,
+                                          const Eigen::Vector3d& sensorOrigin,
+                                          InsertReport& report);
+    void contradict(const Mixture<3>& samples, const Eigen::Vector3d& sensorOrigin,
+                    InsertReport& report);
+    void removeSurface(std::uint32_t i);
+    void addFreeOfSurface(std::uint32_t i, const RayBundle& bundle,
+                          const Eigen::Vector3d& sensorOrigin);
 
     MapParams params_;
     Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
-    Mixture<3> base_;
+    Model model_;
     std::unique_ptr<Derived> derived_;
 };
 

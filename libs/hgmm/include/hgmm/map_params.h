@@ -1,9 +1,11 @@
 #pragma once
 #include "hgmm/cells.h"
+#include "hgmm/contradiction.h"
 #include "hgmm/em.h"
 #include "hgmm/filter.h"
 #include "hgmm/hierarchy.h"
 #include "hgmm/novelty.h"
+#include "hgmm/occupancy_model.h"
 
 namespace hgmm {
 
@@ -14,6 +16,8 @@ struct MapParams {
     CellParams cells;
     EmParams em;
     HierarchyParams hierarchy;
+    OccupancyParams occupancy;
+    ContradictionParams contradiction;
 
     /// Throws std::invalid_argument naming the field.
     void validate() const;
@@ -24,14 +28,14 @@ struct MapParams {
 /// printing. Names are unique over all stages and are the keys of configuration files.
 template <typename Params, typename Visitor>
 void forEachField(Params& params, Visitor&& visit) {
-    visit("leafPerRange", params.filter.leafPerRange);
+    visit("leafAtOneMetre_m", params.filter.leafAtOneMetre_m);
     visit("minLeaf_m", params.filter.minLeaf_m);
     visit("minRange_m", params.filter.minRange_m);
     visit("maxRange_m", params.filter.maxRange_m);
     visit("noiseStd_m", params.filter.noiseStd_m);
     visit("noisePerRange", params.filter.noisePerRange);
     visit("maxMahalanobis", params.novelty.maxMahalanobis);
-    visit("cellPerRange", params.cells.cellPerRange);
+    visit("cellAtOneMetre_m", params.cells.cellAtOneMetre_m);
     visit("minCell_m", params.cells.minCell_m);
     visit("minSamples", params.cells.minSamples);
     visit("maxIterations", params.em.maxIterations);
@@ -41,6 +45,17 @@ void forEachField(Params& params, Visitor&& visit) {
     visit("similarityStep", params.hierarchy.similarityStep);
     visit("similarityMax", params.hierarchy.similarityMax);
     visit("levelRatio", params.hierarchy.levelRatio);
+    visit("freeShare", params.occupancy.band.freeShare);
+    visit("bandBase_m", params.occupancy.band.bandBase_m);
+    visit("bandPerRange", params.occupancy.band.bandPerRange);
+    visit("bandReachPerRange", params.occupancy.band.bandReachPerRange);
+    visit("freeSpaceModel", params.occupancy.freeSpace.freeSpaceModel);
+    visit("freeCellAtOneMetre_m", params.occupancy.freeSpace.freeCellAtOneMetre_m);
+    visit("freeSettledScans", params.occupancy.freeSpace.freeSettledScans);
+    visit("knownSigmas", params.occupancy.knownSigmas);
+    visit("extentSigmas", params.occupancy.extentSigmas);
+    visit("contradictedKeep", params.contradiction.contradictedKeep);
+    visit("minSupport", params.contradiction.minSupport);
 }
 
 }  // namespace hgmm

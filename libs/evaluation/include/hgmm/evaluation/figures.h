@@ -5,7 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "hgmm/evaluation/baseline.h"
 #include "hgmm/evaluation/memory.h"
+#include "hgmm/evaluation/occupancy_figures.h"
 #include "hgmm/evaluation/reconstruction.h"
 #include "hgmm/evaluation/split.h"
 #include "hgmm/evaluation/test_points.h"
@@ -16,9 +18,11 @@ namespace hgmm::evaluation {
 /// One level of a hierarchy (protocol, step 7).
 struct LevelFigures {
     std::size_t level = 0;
-    std::size_t components = 0;
-    std::size_t bytes = 0;    ///< parameters alone (parameterBytes)
-    double klToLevel0 = 0.0;  ///< KL(level 0 || this level) [nat], 0 for level 0
+    std::size_t components = 0;      ///< of the surface
+    std::size_t componentsFree = 0;  ///< of free space
+    std::size_t bytes = 0;           ///< parameters alone (levelBytes)
+    double klToLevel0 = 0.0;  ///< KL(level 0 || this level) of the surface [nat], 0 for 0
+    std::optional<double> aucUniform, aucNear;  ///< [0, 1]; none without test points
 };
 
 /// Everything measured on one map.
@@ -26,12 +30,13 @@ struct MapFigures {
     std::string name;
     std::string className;
     std::vector<std::pair<std::string, double>> options;
+    std::optional<OccupancyFigures> occupancy;  ///< none without test points
     std::optional<double> logLikelihoodOfHits;  ///< [nat/point]; none without test points
     std::optional<double> likelihoodsPerSecond;
     std::optional<Reconstruction> reconstruction;  ///< none without test points
     Memory memory;
     Timing scanTime_ms;                ///< of inserting alone
-    std::vector<LevelFigures> levels;  ///< [0] is the base
+    std::vector<LevelFigures> levels;  ///< [0] is the base; none for other kinds of maps
 };
 
 /// What was run, and on what.
@@ -43,6 +48,8 @@ struct Run {
     double pointsPerScan = 0.0;  ///< mean over mapped and tested scans
     SplitParams split;
     std::size_t queriesPerScan = 0;
+    NearBand nearBand;
+    FreeBand freeBand;
     int threads = 1;
     bool interrupted = false;
 };
@@ -50,12 +57,16 @@ struct Run {
 /// Points drawn from the surface model to compare with the test scans.
 constexpr std::size_t kModelPoints = 200000;
 
-/// The figures of a map that answers queries: all but its name and times of insertion.
-/// Those that need test points are left out if there are none.
-MapFigures evaluateMap(const Map& map, const TestPoints& testPoints, std::uint64_t seed);
+/// The figures of a map: all but its name and times of insertion. They are taken on the map
+/// as loaded back from its saved bytes, for these are what is counted as its size; live
+/// bytes are those of the map itself. What needs test points is left out if there are none.
+MapFigures evaluateMap(const Map& built, const TestPoints& testPoints, std::uint64_t seed);
+
+/// The same for another kind of map.
+MapFigures evaluateBaseline(const Baseline& baseline, const TestPoints& testPoints);
 
 /// The figures of the levels of a map. Goldberger's approximation compares each pair of
 /// components once.
-std::vector<LevelFigures> levelFigures(const Map& map);
+std::vector<LevelFigures> levelFigures(const Map& map, const TestPoints& testPoints);
 
 }  // namespace hgmm::evaluation

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <random>
 #include <vector>
 
 #include "hgmm/scan.h"
@@ -25,7 +26,20 @@ struct SplitParams {
 
 /// What the random numbers of a scan are drawn for: each use has a stream of its own, so
 /// that one choice never shifts another.
-enum class Draw : std::uint64_t { holdout = 1, subsample = 2, queries = 3, reference = 4 };
+enum class Draw : std::uint64_t {
+    holdout = 1,
+    subsample = 2,
+    queries = 3,
+    reference = 4,
+    uniformFree = 5,
+    nearFree = 6
+};
+
+/// The random numbers of one use in one scan.
+std::mt19937_64 randomStream(std::uint64_t seed, std::size_t scanIndex, Draw draw);
+
+/// The next number of a stream, uniform in [0, 1); the same on every platform.
+double nextUniform(std::mt19937_64& stream);
 
 /// Chooses `n` of `total` indices, rising, each subset equally likely; all of them if
 /// n >= total. The same (seed, scanIndex, draw) gives the same choice.

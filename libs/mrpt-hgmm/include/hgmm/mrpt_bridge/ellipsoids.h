@@ -2,23 +2,18 @@
 #include <mrpt/opengl/CSetOfObjects.h>
 
 #include "hgmm/map.h"
+#include "hgmm/mrpt_bridge/render_params.h"
 
 namespace hgmm::mrpt_bridge {
 
-/// How a map is drawn.
-struct RenderParams {
-    double sigmas = 2.0;  ///< size of the ellipsoids [sigma], 0.01 to 10
-    int level = 0;  ///< level of the hierarchy, 0 the finest; beyond the last: the last
-    int maxEllipsoids = 10000;  ///< only those with most support are drawn [count], >= 1
-    bool colourByWeight =
-        false;  ///< colour shows the logarithm of the weight, else the height
-
-    /// Throws std::invalid_argument naming the field.
-    void validate() const;
-};
-
-/// Appends one ellipsoid per component, in the map frame.
+/// Appends one ellipsoid per surface component, in the map frame, unless drawEllipsoids is
+/// false.
 void appendEllipsoids(const Map& map, const RenderParams& params,
                       mrpt::opengl::CSetOfObjects& objects);
+
+/// Appends one translucent ellipsoid per free-space component if drawFreeSpace is true:
+/// where rays passed, whatever their distance to the surface.
+void appendFreeSpace(const Map& map, const RenderParams& params,
+                     mrpt::opengl::CSetOfObjects& objects);
 
 }  // namespace hgmm::mrpt_bridge

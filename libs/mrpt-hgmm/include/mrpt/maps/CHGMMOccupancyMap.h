@@ -1,13 +1,15 @@
 #pragma once
 #include <mrpt/config/CLoadableOptions.h>
 #include <mrpt/maps/CMetricMap.h>
+#include <mrpt/math/TPoint3D.h>
+#include <mrpt/opengl/COctoMapVoxels.h>
 
 #include <string>
 
 #include "hgmm/map.h"
-#include "hgmm/mrpt_bridge/ellipsoids.h"
 #include "hgmm/mrpt_bridge/likelihood.h"
 #include "hgmm/mrpt_bridge/mrpt_compat.h"
+#include "hgmm/mrpt_bridge/render_params.h"
 
 namespace mrpt::maps {
 
@@ -94,13 +96,47 @@ class CHGMMOccupancyMap : public CMetricMap {
     void loadFromFile(const std::string& fileName);
     /// @}
 
+    /// @name Occupancy, with the signatures of mrpt::maps::COctoMap, at the finest level
+    /// @{
+
+    /// P(occ) at a point [m], in [0, 1], where the share that is unknown counts half.
+    /// @return false if P(unknown) > 0.5; `prob_occupancy` is 0.5 then.
+    bool getPointOccupancy(float x, float y, float z, double& prob_occupancy) const;
+
+    /// Whether a point [m] was seen to be free or occupied: P(unknown) <= 0.5.
+    bool isPointWithinOctoMap(float x, float y, float z) const;
+
+    /// The first occupied point, P(occ) >= renderOptions.minOccupied, along a ray.
+    /// @param origin where the ray starts [m]
+    /// @param direction of any length
+    /// @param end where the surface begins [m]; unchanged if there is none. Not the centre
+    /// of a cell, as there are no cells.
+    /// @param ignoreUnknownCells if false, a ray ends without a hit where P(unknown) > 0.5
+    /// @param maxRange [m]; no limit if not positive
+    /// @return whether there is an occupied point
+    /// @throws std::invalid_argument for an origin or a direction that is not finite, or a
+    /// direction of length 0.
+    bool castRay(const mrpt::math::TPoint3D& origin, const mrpt::math::TPoint3D& direction,
+                 mrpt::math::TPoint3D& end, bool ignoreUnknownCells = false,
+                 double maxRange = -1.0) const;
+
+    /// Replaces the content of `gl_obj` by cubes of one size: set VOXEL_SET_OCCUPIED where
+    /// P(occ) >= renderOptions.minOccupied and VOXEL_SET_FREESPACE where P(free) > 0.5, as
+    /// renderOptions say. Colours follow gl_obj's colour and visualisation mode, as with
+    /// COctoMap. Voxels are made at level renderOptions.level.
+    /// @throws std::invalid_argument for options out of range, and for a resolution at
+    /// which there would be more than 2^24 voxels.
+    void getAsOctoMapVoxels(mrpt::opengl::COctoMapVoxels& gl_obj) const;
+    /// @}
+
     /// @name CMetricMap
     /// @{
     bool isEmpty() const override { return model_.empty(); }
     std::string asString() const override;
     /// Writes `<prefix>.hgmm`, and `<prefix>.3Dscene` unless enableSaveAs3DObject is false.
     void saveMetricMapRepresentationToFile(const std::string& prefix) const override;
-    /// Appends the ellipsoids of one level, unless enableSaveAs3DObject is false.
+    /// Appends what renderOptions ask for, ellipsoids if nothing else, unless
+    /// enableSaveAs3DObject is false.
     void getVisualizationInto(mrpt::opengl::CSetOfObjects& objects) const override;
     /// Frees the points kept of the last observations.
     void auxParticleFilterCleanUp() override;
@@ -138,6 +174,9 @@ class CHGMMOccupancyMap : public CMetricMap {
     void OnPostSuccesfulInsertObs(const mrpt::obs::CObservation& observation) override;
 
     ::hgmm::Map model_;
+    /// Of serialisation: copies made through archives (CMultiMetricMap's) lose nothing,
+    /// files are small.
+    ::hgmm::Encoding encoding_ = ::hgmm::Encoding::exact;
     ::hgmm::mrpt_bridge::ObservationLikelihood likelihood_;
 
     MAP_DEFINITION_START(CHGMMOccupancyMap)

@@ -1,0 +1,108 @@
+#include "export_command.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace maptool {
+namespace {
+
+using Formats = std::set<std::string>;
+const Formats kFormats = {"ply", "3Dscene", "png", "bt", "ot", "yaml"};
+
+/// An option that only some formats know.
+using Restricted = std::pair<CLI::Option*, Formats>;
+
+std::vector<Restricted> defineSceneOptions(CLI::App& exports,
+                                           hgmm::mrpt_bridge::RenderParams& render) {
+    const std::map<std::string, int> colours = {
+        {"height", 0}, {"weight", 1}, {"occupancy", 2}, {"deviation", 3}};
+    CLI::Option* voxels = exports.add_flag(
+        "--voxels", render.drawVoxels, "3Dscene: occupied voxels instead of ellipsoids");
+    CLI::Option* freeVoxels = exports.add_flag("--free-voxels", "3Dscene: and free voxels");
+    freeVoxels->needs(voxels);
+    CLI::Option* freeSpace = exports.add_flag("--free-space", render.drawFreeSpace,
+                                              "3Dscene: free components as well");
+    CLI::Option* colour = exports
+                              .add_option("--colour", render.colour,
+                                          "3Dscene: what ellipsoids show by colour")
+                              ->transform(CLI::Transformer(colours))
+                              ->check(CLI::Range(0, 3));
+    return {{voxels, {"3Dscene"}},
+            {freeVoxels, {"3Dscene"}},
+            {freeSpace, {"3Dscene"}},
+            {colour, {"3Dscene"}}};
+}
+
+std::vector<Restricted> defineOptions(CLI::App& exports, ExportOptions& exporting) {
+    std::vector<Restricted> options = defineSceneOptions(exports, exporting.render);
+    options.emplace_back(
+        exports
+            .add_option("--points-per-component", exporting.pointsPerComponent,
+                        "ply: so many points of each component instead of its ellipsoid")
+            ->check(CLI::PositiveNumber),
+        Formats{"ply"});
+    options.emplace_back(
+        exports
+            .add_option("--resolution", exporting.resolution_m,
+                        "bt, ot, yaml, voxels: edge of a cell [m]; default: from the map")
+            ->check(CLI::PositiveNumber),
+        Formats{"bt", "ot", "yaml", "3Dscene"});
+    options.emplace_back(
+        exports.add_option("--height", exporting.height_m, "yaml: height of the slice [m]"),
+        Formats{"yaml"});
+    exports.add_option("--seed", exporting.seed, "ply: seed of the points")
+        ->check(CLI::NonNegativeNumber);
+    exports.add_option("--yaw", exporting.view.yaw_deg,
+                       "png: viewing direction about z [deg]");
+    exports.add_option("--pitch", exporting.view.pitch_deg,
+                       "png: how far it points down [deg]");
+    exports.add_option("--cut", exporting.view.cut,
+                       "png: share of the depth, from the viewer on, left out");
+    return options;
+}
+
+/// The format named, or that of the output's extension.
+std::string formatOf(const ExportOptions& exporting) {
+    if (!exporting.format.empty()) return exporting.format;
+    const std::string extension = std::filesystem::path(exporting.output).extension();
+    if (extension.empty() || kFormats.count(extension.substr(1)) == 0)
+        throw CLI::ValidationError(
+            "OUT", "'" + exporting.output +
+                       "' ends in none of .bt .ot .yaml .ply .3Dscene .png: say --format");
+    return extension.substr(1);
+}
+
+}  // namespace
+
+CLI::App* defineExport(CLI::App& app, ExportOptions& exporting) {
+    CLI::App* exports = app.add_subcommand("export", "Write the map in another format");
+    exports->add_option("MAP", exporting.mapFile, "Saved map")->required();
+    exports->add_option("OUT,-o", exporting.output, "Output file")->required();
+    exports
+        ->add_option("--format", exporting.format,
+                     "ply: ellipsoids or points; 3Dscene: MRPT; png: a picture; bt, ot: "
+                     "OctoMap; yaml: slice for ROS' map_server. Default: OUT's extension")
+        ->check(CLI::IsMember(kFormats));
+    exports->add_option("--level", exporting.level, "Level of the hierarchy, 0 = finest")
+        ->check(CLI::NonNegativeNumber);
+    const std::vector<Restricted> restricted = defineOptions(*exports, exporting);
+    exports->callback([&exporting, exports, restricted] {
+        exporting.format = formatOf(exporting);
+        for (const auto& [option, formats] : restricted)
+            if (option->count() > 0 && formats.count(exporting.format) == 0)
+                throw CLI::ValidationError(option->get_name(),
+                                           "is not for --format " + exporting.format);
+        if (exporting.format == "yaml" && !exporting.height_m)
+            throw CLI::RequiredError("--height");
+        exporting.render.drawEllipsoids = !exporting.render.drawVoxels;
+        exporting.render.generateFreeVoxels = exports->count("--free-voxels") > 0;
+    });
+    return exports;
+}
+
+}  // namespace maptool

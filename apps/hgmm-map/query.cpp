@@ -1,0 +1,82 @@
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+
+#include "commands.h"
+#include "load.h"
+#include "parse_point.h"
+
+namespace maptool {
+namespace {
+
+std::vector<Eigen::Vector3d> readPoints(const std::string& file) {
+    std::ifstream in(file);
+    if (!in) throw std::runtime_error(file + ": cannot be opened");
+    std::vector<Eigen::Vector3d> points;
+    std::size_t number = 0;
+    for (std::string line; std::getline(in, line);) {
+        ++number;
+        const std::size_t begin = line.find_first_not_of(" \t\r");
+        if (begin == std::string::npos || line[begin] == '#') continue;
+        points.push_back(parsePoint(line, file + ":" + std::to_string(number)));
+    }
+    if (in.bad()) throw std::runtime_error(file + ": cannot be read");
+    return points;
+}
+
+/// By the largest of the three probabilities; unknown where there is a draw.
+const char* verdict(const hgmm::Occupancy& answer) {
+    if (answer.unknown >= answer.occupied && answer.unknown >= answer.free)
+        return "unknown";
+    return answer.occupied >= answer.free ? "occupied" : "free";
+}
+
+void print(const Eigen::Vector3d& p, const hgmm::Occupancy& answer) {
+    const char* word = verdict(answer);
+    std::printf("%.9g %.9g %.9g %s %.4f %.4f %.4f", p.x(), p.y(), p.z(), word,
+                answer.occupied, answer.free, answer.unknown);
+    // A distance to a surface that nobody has seen would mean nothing.
+    if (answer.unknown >= 1.F)
+        std::printf(" - -\n");
+    else
+        std::printf(" %.4f %.4f\n", answer.distance_m, std::sqrt(answer.variance_m2));
+}
+
+}  // namespace
+
+void query(const QueryOptions& options) {
+    const mrpt::maps::CHGMMOccupancyMap map = loadMap(options.mapFile);
+    levelOf(map.model(), options.level, options.mapFile);
+    std::vector<Eigen::Vector3d> points;
+    for (const std::string& text : options.points)
+        points.push_back(parsePoint(text, "'" + text + "'"));
+    if (!options.pointsFile.empty()) {
+        const std::vector<Eigen::Vector3d> more = readPoints(options.pointsFile);
+        points.insert(points.end(), more.begin(), more.end());
+    }
+    std::vector<hgmm::Occupancy> answers(points.size());
+    map.model().occupancy(points.data(), points.size(), answers.data(), options.level);
+    std::printf(
+        "# x y z [m], answer, P(occupied) P(free) P(unknown), distance to the "
+        "surface and its standard deviation [m]\n");
+    for (std::size_t i = 0; i < points.size(); ++i) print(points[i], answers[i]);
+}
+
+void raycast(const RayOptions& options) {
+    const Eigen::Vector3d from_map = parsePoint(options.from, "--from");
+    const Eigen::Vector3d direction_map = parsePoint(options.direction, "--to-direction");
+    const mrpt::maps::CHGMMOccupancyMap map = loadMap(options.mapFile);
+    levelOf(map.model(), options.level, options.mapFile);
+    hgmm::RayCastParams params;
+    params.maxRange_m = options.maxRange_m;
+    const auto hit = map.model().castRay(from_map, direction_map, params, options.level);
+    if (!hit) {
+        std::printf("nothing occupied within %g m\n", options.maxRange_m);
+        return;
+    }
+    std::printf("# x y z, range [m]\n%.9g %.9g %.9g %.4f\n", hit->point_map.x(),
+                hit->point_map.y(), hit->point_map.z(), hit->range_m);
+}
+
+}  // namespace maptool

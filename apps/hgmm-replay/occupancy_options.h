@@ -1,0 +1,14 @@
+#pragma once
+#include <CLI/CLI.hpp>
+
+#include "options.h"
+
+namespace replay {
+
+/// Defines what belongs to the evaluation of occupancy: bands of free points and baselines.
+void defineOccupancyOptions(CLI::App& app, Options& options);
+
+/// Throws CLI::ValidationError naming the option.
+void checkOccupancyUsage(const Options& options);
+
+}  // namespace replay

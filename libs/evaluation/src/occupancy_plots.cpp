@@ -1,0 +1,85 @@
+#include "hgmm/evaluation/occupancy_plots.h"
+
+namespace hgmm::evaluation {
+namespace {
+
+Curve curveOf(const RocCurve& roc, const std::string& label, bool emphasised) {
+    constexpr double step = 0.002;  // less than two pixels
+    Curve curve;
+    curve.label = label;
+    curve.emphasised = emphasised;
+    for (const RocPoint& p : thinned(roc, step)) curve.points.emplace_back(p.fpr, p.tpr);
+    return curve;
+}
+
+/// From (0, 0) to (1, 1), as a backdrop.
+Curve diagonal() {
+    Curve curve;
+    curve.points = {{0.0, 0.0}, {1.0, 1.0}};
+    return curve;
+}
+
+}  // namespace
+
+Plot rocPlot(const std::vector<MapFigures>& maps) {
+    Plot plot;
+    plot.title = "Occupied or free: thick, free points near the hit; thin, anywhere";
+    plot.xLabel = "false positive rate";
+    plot.yLabel = "true positive rate";
+    plot.legend = Legend::bottomRight;
+    plot.curves.push_back(diagonal());
+    for (const MapFigures& map : maps) {
+        if (!map.occupancy) continue;
+        plot.curves.push_back(curveOf(map.occupancy->rocNear, map.name + ", near", true));
+        plot.curves.push_back(
+            curveOf(map.occupancy->rocUniform, map.name + ", uniform", false));
+    }
+    return plot;
+}
+
+Plot reliabilityPlot(const std::vector<MapFigures>& maps) {
+    Plot plot;
+    plot.title = "Reliability, hits and near free points 1:1, bins of equal mass";
+    plot.xLabel = "P(occupied) of the map, mean of the bin";
+    plot.yLabel = "share of the bin that was occupied";
+    plot.legend = Legend::bottomRight;
+    plot.curves.push_back(diagonal());
+    for (const MapFigures& map : maps) {
+        if (!map.occupancy) continue;
+        Curve curve;
+        curve.label = map.name;
+        curve.emphasised = true;
+        curve.markers = true;
+        for (const ReliabilityBin& bin : map.occupancy->reliability)
+            curve.points.emplace_back(bin.meanProbability, bin.occupiedShare);
+        plot.curves.push_back(curve);
+    }
+    return plot;
+}
+
+Plot levelsPlot(const std::vector<MapFigures>& maps) {
+    Plot plot;
+    plot.title = "Accuracy against memory (levels of the hierarchy joined)";
+    plot.xLabel = "memory [KB]";
+    plot.yLabel = "AUC, near free points";
+    plot.legend = Legend::bottomLeft;
+    plot.xLogarithmic = true;
+    constexpr double kilobyte = 1000.0;
+    for (const MapFigures& map : maps) {
+        Curve curve;
+        curve.label = map.name;
+        curve.emphasised = true;
+        curve.markers = true;
+        for (const LevelFigures& level : map.levels)
+            if (level.aucNear && level.bytes > 0)
+                curve.points.emplace_back(static_cast<double>(level.bytes) / kilobyte,
+                                          *level.aucNear);
+        if (map.levels.empty() && map.occupancy && map.memory.live_bytes > 0)
+            curve.points.emplace_back(static_cast<double>(map.memory.live_bytes) / kilobyte,
+                                      map.occupancy->aucNear);
+        if (!curve.points.empty()) plot.curves.push_back(curve);
+    }
+    return plot;
+}
+
+}  // namespace hgmm::evaluation

@@ -1,0 +1,75 @@
+#pragma once
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "hgmm/band.h"
+#include "hgmm/clearance.h"
+#include "hgmm/mixture.h"
+
+namespace hgmm {
+
+/// How observed free space is modelled (thesis 4.2).
+enum class FreeSpaceModel {
+    slabs = 0,        ///< scale-free mixture on a lattice, see FreeSpace
+    perComponent = 1  ///< the thesis' own: one component per surface component
+};
+
+struct FreeSpaceParams {
+    int freeSpaceModel = 0;  ///< 0 = slabs, 1 = perComponent; for maps that are still empty
+    /// Edge of the smallest cells where rays end at 1 m [m], > 0; grows with the square
+    /// root of the range, like those of surfaces (CellParams).
+    double freeCellAtOneMetre_m = 0.4;
+    /// A free component that holds this many times what a scan would add learns no more
+    /// [scans], >= 1: so that something new in long-known free space is soon believed.
+    double freeSettledScans = 64.0;
+
+    /// Throws std::invalid_argument naming the field.
+    void validate() const;
+};
+
+/// Hits of one scan that belong to one surface component: their number, mean and scatter.
+using RayBundle = Gaussian<3>;
+
+/// The default free-space model: a mixture over (X, W) whose components grow with the
+/// distance to the surfaces around them, so that their number depends on the area of what
+/// was seen, not on ranges, and none reaches through a wall.
+///
+/// Each bundle of rays is cut into slabs from the reach of its surface's band to the
+/// sensor. A slab belongs to a cell of a lattice whose edge is the octave of W, or smaller
+/// where surfaces are nearer than W (rays that graze a floor), down to
+/// freeCellAtOneMetre_m. One component is kept for each cell and grows by the closed-form
+/// moments of its slabs (freeSlab). The support of a slab continues that of the band.
+class FreeSpace {
+ public:
+    /// Adds the rays of one scan, in the local frame. Returns the changed components,
+    /// rising; new ones come last.
+    std::vector<std::uint32_t> insert(const std::vector<RayBundle>& bundles,
+                                      const Eigen::Vector3d& sensorOrigin,
+                                      const Clearance& clearance, const BandParams& band,
+                                      const FreeSpaceParams& params);
+
+    const Mixture<4>& mixture() const { return mixture_; }
+    /// Octave of the cell of component i: its edge is 2^octave m.
+    int octave(std::size_t i) const { return cells_[i].octave; }
+    /// The mixture with pairs of neighbouring cells merged, `times` times over, each time
+    /// along the next axis.
+    Mixture<4> coarsened(int times) const;
+
+    /// For loading. Cells are found again from the means.
+    void pushBack(const Gaussian<4>& component, int octave);
+
+    std::size_t liveBytes() const;
+    bool operator==(const FreeSpace& o) const {
+        return mixture_ == o.mixture_ && cells_ == o.cells_;
+    }
+
+ private:
+    using CellNumbers = std::unordered_map<LatticeCell, std::uint32_t, LatticeCellHash>;
+
+    Mixture<4> mixture_;
+    std::vector<LatticeCell> cells_;
+    CellNumbers componentOf_;
+};
+
+}  // namespace hgmm

@@ -1,0 +1,127 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "hgmm/band.h"
+#include "hgmm/box_index.h"
+#include "hgmm/conditional.h"
+#include "hgmm/free_space.h"
+#include "hgmm/gaussian.h"
+#include "hgmm/occupancy.h"
+#include "hgmm/views.h"
+
+namespace hgmm {
+
+struct OccupancyParams {
+    BandParams band;
+    FreeSpaceParams freeSpace;
+    /// A point this far behind a single surface component is as likely unknown as known
+    /// [sigma], in [1, 3.9].
+    double knownSigmas = 3.0;
+    /// The same for a point beside a surface component, or outside a free one [sigma], in
+    /// [1, knownSigmas]. Components are tiles: evenly filled, one ends at sqrt(3) sigma of
+    /// its extent, while across a surface they are as thick as the noise is.
+    double extentSigmas = 2.4;
+
+    /// Throws std::invalid_argument naming the field.
+    void validate() const;
+};
+
+/// The unified model of occupancy (thesis 4.3) of one level, prepared for queries:
+/// surface components with their bands and free-space components, weighed by their supports
+/// (thesis eq. (4.14)), with an index over both.
+///
+/// FreeSpaceModel::slabs evaluates a surface component's W exactly as BandParams describes
+/// it. FreeSpaceModel::perComponent is the thesis to the letter: every component is a
+/// 4-tuple Gaussian, free points lie at 1 mm, and eq. (4.15), (4.16) integrate (4.8).
+///
+/// The unexplored has a prior: at a point where components have the densities p_j(x),
+/// relative to their own peaks (and sharpened along their extents, see extentSigmas), what
+/// they say counts K / (K + k), K = sum_j p_j(x) and k = exp(-knownSigmas^2 / 2). It
+/// depends neither on the size of the map nor on counts.
+///
+/// Positions are in the local frame. Const member functions may be called from several
+/// threads at once.
+class OccupancyModel {
+ public:
+    /// Throws std::invalid_argument naming the field.
+    explicit OccupancyModel(const OccupancyParams& params);
+
+    /// Enters or re-enters surface component i <= number of those entered.
+    void updateSurface(std::uint32_t i, const Gaussian<3>& surface, const View& view);
+    /// Follows Mixture::removeSwap(i).
+    void removeSurface(std::uint32_t i);
+    /// Enters or re-enters free component i <= number of those entered.
+    void updateFree(std::uint32_t i, const Gaussian<4>& component);
+    /// Follows Mixture::removeSwap(i).
+    void removeFree(std::uint32_t i);
+
+    /// A point that is not finite is unknown.
+    Occupancy at(const Eigen::Vector3d& point) const;
+    /// Gradient of Occupancy::occupied [1/m].
+    Eigen::Vector3d gradient(const Eigen::Vector3d& point) const;
+    /// As Map::castRay. `direction` is a unit vector.
+    std::optional<RayHit> castRay(const Eigen::Vector3d& origin,
+                                  const Eigen::Vector3d& direction,
+                                  const RayCastParams& params) const;
+
+    std::size_t liveBytes() const;
+
+ private:
+    /// A surface component with its band, whitened: v is its view.
+    struct Band {
+        WhitenedGaussian<3, float> whitened;
+        std::array<float, 3> v{};   ///< zero without a view
+        float viewPrecision = 0.F;  ///< |v|^2 = u^T Sigma^-1 u [1/m^2]
+        float width_m = 0.F, reach_m = 0.F;
+        float freePerMetre = 0.F;
+        float peak = 0.F;  ///< support times density at the mean [1/m^3]
+    };
+    /// A component over (X, W) for thesis eq. (4.4) to (4.9).
+    struct Joint {
+        WhitenedGaussian<3, float> place;
+        std::array<float, 3> slope{};  ///< Sigma_XX^-1 Sigma_XW
+        float meanW_m = 0.F, varianceW_m2 = 0.F;
+        float peak = 0.F;  ///< support times density at the mean [1/m^3]
+    };
+    /// Sums over components, all relative to their supports.
+    template <typename T>
+    struct Sums {
+        T occupied = 0.0, free = 0.0, behind = 0.0;  ///< density [1/m^3]
+        T known = 0.0;                               ///< K
+        double distance = 0.0, squaredDistance = 0.0;
+    };
+    /// Where a ray is near one component, along the ray.
+    struct Interval {
+        double start_m, end_m, step_m;
+    };
+
+    template <typename T>
+    Sums<T> sums(const T* x) const;
+    template <typename T>
+    void addBand(const Band& band, const T* x, Sums<T>& sums) const;
+    template <typename T>
+    void addJoint(const Joint& joint, const T* x, bool integrate, Sums<T>& sums) const;
+    std::vector<Interval> intervals(const Eigen::Vector3d& origin,
+                                    const Eigen::Vector3d& direction, double from_m,
+                                    double to_m) const;
+    double occupiedAt(const Eigen::Vector3d& point) const;
+    bool crossesUnknown(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                        double to_m) const;
+
+    static Joint jointOf(const Gaussian<4>& g);
+    bool exact() const { return params_.freeSpace.freeSpaceModel == 0; }
+
+    OccupancyParams params_;
+    double unknownDensity_;  ///< k
+    double sharpness_;       ///< of extents against thickness
+    std::vector<Band> bands_;
+    std::vector<Joint> surfaceJoints_;  ///< of perComponent only
+    std::vector<Joint> freeJoints_;
+    BoxIndex bandBoxes_;     ///< surfaces with their bands
+    BoxIndex surfaceBoxes_;  ///< surfaces alone, for rays
+    BoxIndex freeBoxes_;
+};
+
+}  // namespace hgmm

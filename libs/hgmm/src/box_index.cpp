@@ -1,0 +1,133 @@
+#include "hgmm/box_index.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace hgmm {
+
+BoxIndex::Placement BoxIndex::placementOf(const Box& box) {
+    const float largest = std::max({box.halfExtent[0], box.halfExtent[1], box.halfExtent[2],
+                                    std::ldexp(1.F, kMinOctave)});
+    Placement p;
+    p.octave = static_cast<std::int8_t>(std::clamp(
+        static_cast<int>(std::ceil(std::log2(largest))), kMinOctave, kMaxOctave));
+    const float scale = perCell(p.octave);
+    for (int d = 0; d < 3; ++d) {
+        p.low[d] = cellOf(box.centre[d] - box.halfExtent[d], scale);
+        p.high[d] = cellOf(box.centre[d] + box.halfExtent[d], scale);
+    }
+    return p;
+}
+
+template <typename Visitor>
+void BoxIndex::forEachCell(const Placement& p, Visitor&& visit) {
+    for (std::int32_t x = p.low[0]; x <= p.high[0]; ++x)
+        for (std::int32_t y = p.low[1]; y <= p.high[1]; ++y)
+            for (std::int32_t z = p.low[2]; z <= p.high[2]; ++z)
+                visit(keyOf(p.octave, x, y, z));
+}
+
+void BoxIndex::growTable() {
+    std::vector<Slot> old(slots_.empty() ? 256 : slots_.size() * 2);
+    old.swap(slots_);
+    const std::size_t mask = slots_.size() - 1;
+    for (const Slot& slot : old) {
+        if (!slot.used) continue;
+        std::size_t s = hash(slot.key) & mask;
+        while (slots_[s].used) s = (s + 1) & mask;
+        slots_[s] = slot;
+    }
+}
+
+BoxIndex::Slot& BoxIndex::findOrAdd(std::uint64_t key) {
+    if (2 * (usedSlots_ + 1) > slots_.size()) growTable();
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t s = hash(key) & mask;
+    while (slots_[s].used && slots_[s].key != key) s = (s + 1) & mask;
+    Slot& slot = slots_[s];
+    if (!slot.used) {
+        slot.used = true;
+        slot.key = key;
+        slot.capacityLog2 = 2;
+        slot.begin = allocate(slot.capacityLog2);
+        ++usedSlots_;
+    }
+    return slot;
+}
+
+std::uint32_t BoxIndex::allocate(std::uint8_t capacityLog2) {
+    std::vector<std::uint32_t>& unused = free_[capacityLog2];
+    if (!unused.empty()) {
+        const std::uint32_t begin = unused.back();
+        unused.pop_back();
+        return begin;
+    }
+    const auto begin = static_cast<std::uint32_t>(pool_.size());
+    pool_.resize(pool_.size() + (std::size_t{1} << capacityLog2));
+    return begin;
+}
+
+void BoxIndex::add(std::uint64_t key, std::uint32_t i) {
+    Slot& slot = findOrAdd(key);
+    if (slot.count == 1U << slot.capacityLog2) {
+        const std::uint32_t larger = allocate(slot.capacityLog2 + 1);
+        std::copy_n(pool_.begin() + slot.begin, slot.count, pool_.begin() + larger);
+        free_[slot.capacityLog2].push_back(slot.begin);
+        slot.begin = larger;
+        ++slot.capacityLog2;
+    }
+    pool_[slot.begin + slot.count++] = i;
+}
+
+void BoxIndex::remove(std::uint64_t key, std::uint32_t i) {
+    Slot& slot = findOrAdd(key);
+    const auto first = pool_.begin() + slot.begin;
+    const auto last = first + slot.count;
+    std::copy(std::find(first, last, i) + 1, last, std::find(first, last, i));
+    --slot.count;
+}
+
+void BoxIndex::update(std::uint32_t i, const Box& box) {
+    if (i > size()) throw std::out_of_range("BoxIndex::update: a gap before it");
+    const Placement placement = placementOf(box);
+    if (i == size()) {
+        placements_.push_back(placement);
+    } else {
+        const Placement old = placements_[i];
+        if (old == placement) return;
+        forEachCell(old, [&](std::uint64_t key) { remove(key, i); });
+        --boxesInOctave_[old.octave - kMinOctave];
+        placements_[i] = placement;
+    }
+    forEachCell(placement, [&](std::uint64_t key) { add(key, i); });
+    ++boxesInOctave_[placement.octave - kMinOctave];
+}
+
+void BoxIndex::removeSwap(std::uint32_t i) {
+    const auto last = static_cast<std::uint32_t>(size() - 1);
+    const Placement gone = placements_.at(i);
+    forEachCell(gone, [&](std::uint64_t key) { remove(key, i); });
+    --boxesInOctave_[gone.octave - kMinOctave];
+    if (i != last) {
+        forEachCell(placements_[last], [&](std::uint64_t key) {
+            remove(key, last);
+            add(key, i);
+        });
+        placements_[i] = placements_[last];
+    }
+    placements_.pop_back();
+}
+
+void BoxIndex::clear() {
+    *this = BoxIndex();
+}
+
+std::size_t BoxIndex::liveBytes() const {
+    std::size_t bytes = placements_.capacity() * sizeof(Placement) +
+                        slots_.capacity() * sizeof(Slot) +
+                        pool_.capacity() * sizeof(std::uint32_t);
+    for (const auto& unused : free_) bytes += unused.capacity() * sizeof(std::uint32_t);
+    return bytes;
+}
+
+}  // namespace hgmm

@@ -1,0 +1,40 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hgmm/mixture.h"
+#include "hgmm/views.h"
+
+namespace hgmm {
+
+/// Components as they are saved: 20 bytes for a surface component with its view, 23 bytes
+/// for a free-space component, and 16 for each block of 16 m that holds any.
+///
+/// | what | bits | error, at most |
+/// | --- | --- | --- |
+/// | mean, in its block | 3 x 16 | 0.13 mm |
+/// | Cholesky factor of the covariance, diagonal, logarithmic | 3 x 8 | 2.8 % |
+/// | its other entries, sign and logarithm | 3 x 16 | 0.04 % |
+/// | support, logarithmic | 16 | 0.03 % |
+/// | view direction (octahedron) | 2 x 8 | 0.6 deg |
+/// | range, mean of W, residual sigma of W, logarithmic | 8 each | 2.5 % |
+/// | slope of W | 3 x 8 | 0.005 |
+///
+/// Decoding and encoding again gives the same bytes (for components less than about a
+/// thousand times longer than thick, within 2 km of the origin). Components come back
+/// sorted by block.
+void encodeSurfaces(const Mixture<3>& mixture, const Views& views,
+                    std::vector<std::uint8_t>& out);
+/// @param octaves one per component, in [-20, 20]
+void encodeFree(const Mixture<4>& mixture, const std::vector<int>& octaves,
+                std::vector<std::uint8_t>& out);
+
+/// Append to the mixtures what encode... wrote; return the bytes read. Throw
+/// std::out_of_range if the data ends too early.
+std::size_t decodeSurfaces(const std::uint8_t* data, std::size_t size, Mixture<3>& mixture,
+                           Views& views);
+std::size_t decodeFree(const std::uint8_t* data, std::size_t size, Mixture<4>& mixture,
+                       std::vector<int>& octaves);
+
+}  // namespace hgmm

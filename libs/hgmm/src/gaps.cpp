@@ -1,0 +1,151 @@
+#include "hgmm/gaps.h"
+
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+#include <unordered_map>
+
+namespace hgmm {
+
+namespace {
+
+constexpr int kGapDoublings = 3;
+
+/// Samples spread in a direction if they do so by at least this share of the cell's edge,
+/// one standard deviation; evenly filled, it is 0.29.
+constexpr double kLeastSpread = 0.1;
+
+/// A plane is at most this thick, as a share of its second spread.
+constexpr double kFlatness = 0.1;
+
+/// Two lines of samples at a distance g spread by g / 2, three by 0.8 g; Gaussians that
+/// meet spread by 0.29 g each.
+constexpr double kBridge = 0.5;
+
+using Cell = std::array<std::int32_t, 4>;  // octave, x, y, z
+
+struct CellHash {
+    std::size_t operator()(const Cell& c) const {
+        std::uint64_t h = 0;
+        for (const std::int32_t v : c)
+            h = (h ^ static_cast<std::uint32_t>(v)) * 0x9E3779B97F4A7C15ULL, h ^= h >> 29U;
+        return static_cast<std::size_t>(h);
+    }
+};
+
+Cell cellAt(const Eigen::Vector3d& p, int octave) {
+    Cell cell{octave, 0, 0, 0};
+    for (int d = 0; d < 3; ++d)
+        cell[d + 1] = static_cast<std::int32_t>(std::floor(std::ldexp(p[d], -octave)));
+    return cell;
+}
+
+Cell parentOf(const Cell& c) {
+    return {c[0] + 1, c[1] >> 1, c[2] >> 1, c[3] >> 1};
+}
+
+/// Scatter of the sample means in a cell.
+struct Content {
+    int count = 0;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d sumOuter = Eigen::Matrix3d::Zero();
+
+    void add(const Eigen::Vector3d& p) {
+        ++count;
+        sum += p;
+        sumOuter += p * p.transpose();
+    }
+    void add(const Content& o) {
+        count += o.count;
+        sum += o.sum;
+        sumOuter += o.sumOuter;
+    }
+    Eigen::Matrix3d scatter() const {
+        const Eigen::Vector3d mean = sum / count;
+        return sumOuter / count - mean * mean.transpose();
+    }
+    /// Whether two of the standard deviations are at least `least`; without eigenvalues,
+    /// for it is asked for every cell: the sum of the principal 2 x 2 minors is about the
+    /// product of the two largest variances.
+    bool spreadsTwice(double least) const {
+        if (count < 3) return false;
+        const Eigen::Matrix3d s = scatter();
+        const double minors = s(0, 0) * s(1, 1) - s(0, 1) * s(0, 1) + s(0, 0) * s(2, 2) -
+                              s(0, 2) * s(0, 2) + s(1, 1) * s(2, 2) - s(1, 2) * s(1, 2);
+        return minors > least * least * s.trace();
+    }
+};
+
+using Contents = std::unordered_map<Cell, Content, CellHash>;
+using Solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
+
+/// Covariance that bridges the gaps around the samples of `own`, given the plane in
+/// `around`; zero if that is no plane.
+Eigen::Matrix3d bridge(const Content& own, const Content& around) {
+    Solver plane;
+    plane.computeDirect(around.scatter());
+    const Eigen::Vector3d spread = plane.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+    if (spread[0] > kFlatness * spread[1]) return Eigen::Matrix3d::Zero();
+    const Eigen::Vector3d normal = plane.eigenvectors().col(0);
+    Eigen::Matrix3d wider = Eigen::Matrix3d::Zero();
+    const auto widen = [&](const Eigen::Vector3d& direction) {
+        wider += kBridge * kBridge * direction.dot(around.scatter() * direction) *
+                 direction * direction.transpose();
+    };
+    Eigen::Vector3d line = Eigen::Vector3d::Zero();
+    if (own.count >= 3) {
+        Solver lines;
+        lines.computeDirect(own.scatter());
+        line = lines.eigenvectors().col(2);
+    }
+    const Eigen::Vector3d across = normal.cross(line);
+    if (across.squaredNorm() > 0.25) {
+        widen(across.normalized());
+    } else {
+        widen(plane.eigenvectors().col(1));
+        widen(plane.eigenvectors().col(2));
+    }
+    return wider;
+}
+
+}  // namespace
+
+void bridgeGaps(Mixture<3>& samples, const CellParams& params) {
+    std::array<Contents, kGapDoublings + 1> contents;
+    std::vector<Cell> cells(samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const Eigen::Vector3d p(samples.mean[0][i], samples.mean[1][i], samples.mean[2][i]);
+        const double edge =
+            std::max(params.minCell_m, params.cellAtOneMetre_m * std::sqrt(p.norm()));
+        cells[i] = cellAt(p, std::ilogb(edge));
+        contents[0][cells[i]].add(p);
+    }
+    std::unordered_map<Cell, Eigen::Matrix3d, CellHash> bridges;
+    for (const auto& [cell, own] : contents[0])
+        if (!own.spreadsTwice(kLeastSpread * std::ldexp(1.0, cell[0])))
+            bridges.emplace(cell, Eigen::Matrix3d::Zero());
+    if (bridges.empty()) return;
+
+    for (int d = 1; d <= kGapDoublings; ++d)
+        for (const auto& [cell, content] : contents[d - 1])
+            contents[d][parentOf(cell)].add(content);
+    for (auto& [cell, wider] : bridges) {
+        Cell around = cell;
+        for (int d = 1; d <= kGapDoublings; ++d) {
+            around = parentOf(around);
+            const Content& content = contents[d].at(around);
+            if (!content.spreadsTwice(kLeastSpread * std::ldexp(1.0, around[0]))) continue;
+            wider = bridge(contents[0].at(cell), content);
+            break;
+        }
+    }
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const auto found = bridges.find(cells[i]);
+        if (found == bridges.end()) continue;
+        Gaussian<3> g = samples[i];
+        g.covariance += found->second;
+        samples.set(i, g);
+    }
+}
+
+}  // namespace hgmm
