@@ -11,6 +11,7 @@
 #include "hgmm/component_index.h"
 #include "hgmm/evaluation/likelihood.h"
 #include "hgmm/evaluation/metrics_json.h"
+#include "hgmm/evaluation/range_noise.h"
 #include "hgmm/filter.h"
 #include "hgmm/gaussian.h"
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
@@ -43,8 +44,11 @@ SamplePool poolSamples(Recording& recording, const hgmm::Map& map, const Options
         auto scan = hgmm::mrpt_bridge::observationToScan(*recorded->observation,
                                                          recorded->T_map_robot);
         if (!scan) continue;
-        const hgmm::Scan mapping =
+        hgmm::Scan mapping =
             splitPoints(std::move(*scan), recorded->index, options.split).mapping;
+        if (options.rangeNoise_m > 0.0)
+            addRangeNoise(mapping, options.rangeNoise_m, options.split.seed,
+                          recorded->index);
         const hgmm::Pose T_local_sensor{mapping.T_map_sensor.R,
                                         mapping.T_map_sensor.t - map.origin()};
         pool.add(hgmm::transformed(hgmm::filterScan(mapping, filter), T_local_sensor));

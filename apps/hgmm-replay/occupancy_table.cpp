@@ -72,12 +72,16 @@ std::string occupancyTable(const Run& run, const std::vector<MapFigures>& maps) 
         for (const MapFigures& map : maps)
             if (map.occupancy) text += accuracy(map, width);
     }
+    // Only maps of ours know their serialised size.
+    const auto baseline = std::find_if(maps.begin(), maps.end(), [](const MapFigures& map) {
+        return !map.memory.serialized_bytes;
+    });
     const double* firstBaseline_ms =
-        maps.size() > 1 ? &maps[1].scanTime_ms.median : nullptr;
+        baseline == maps.end() ? nullptr : &baseline->scanTime_ms.median;
     text += format("\n  %-*s          KB   ms/scan  ratio to  queries/s  components\n",
                    width, "map");
     text += format("  %-*s                median    %8s             surface/free\n", width,
-                   "", maps.size() > 1 ? "baseline" : "");
+                   "", firstBaseline_ms ? "baseline" : "");
     for (const MapFigures& map : maps) text += cost(map, width, firstBaseline_ms);
     return text;
 }

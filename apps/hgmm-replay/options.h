@@ -19,6 +19,7 @@ struct Options {
     std::optional<std::string> saveMap;
     std::optional<std::string> study;
     hgmm::evaluation::SplitParams split;
+    double rangeNoise_m = 0.0;  ///< added to mapping scans, one sigma [m]
     std::optional<hgmm::evaluation::NearBand> near;  ///< none = by the kind of sensor
     hgmm::evaluation::FreeBand free;
     std::vector<std::string> baselines;  ///< as makeBaseline takes them

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <filesystem>
 
+#include "hgmm/evaluation/range_noise.h"
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
 #include "interrupt.h"
 #include "progress.h"
@@ -40,6 +41,7 @@ Replayed prepare(const Recording& recording,
     run.queriesPerScan = TestPoints::kQueriesPerScan;
     run.nearBand = near;
     run.freeBand = options.free;
+    run.rangeNoise_m = options.rangeNoise_m;
     run.threads = options.threads;
     return replayed;
 }
@@ -53,7 +55,9 @@ void useScan(hgmm::Scan scan, std::size_t index, Replayed& replayed) {
         return;
     }
     ++run.scansMapped;
-    const SplitScan parts = splitPoints(std::move(scan), index, run.split);
+    SplitScan parts = splitPoints(std::move(scan), index, run.split);
+    if (run.rangeNoise_m > 0.0)
+        addRangeNoise(parts.mapping, run.rangeNoise_m, run.split.seed, index);
     replayed.testPoints.add(parts.heldOut, index);
     timed(replayed.insert_ms, [&] { replayed.map->insertScan(parts.mapping); });
     for (ReplayedBaseline& baseline : replayed.baselines)

@@ -57,15 +57,15 @@ TEST_F(ReplayIncremental, IsListed) {
 }
 
 TEST_F(ReplayIncremental, MapOfABoxRoomIsNearlyAsGoodAsBatchModels) {
-    const std::string room = recordRoom();
+    const std::string room = recordRoom(24, 6000);
     const Outcome outcome =
         replay(room + " --split 4 --study incremental --report " + path("report"));
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    expectHas(outcome.out, "9 scans mapped, 3 tested, 6000 held-out hits");
+    expectHas(outcome.out, "18 scans mapped, 6 tested, 12000 held-out hits");
     expectHas(outcome.out, "batch EM from cells");
     const std::vector<Model> rows = models("report");
     expectComparable(rows);
-    EXPECT_LT(betterBatch(rows), 0.3);
+    EXPECT_LT(betterBatch(rows), 0.3) << outcome.out;
     // Batch models of other points, or in another frame, would be far worse than the map.
     EXPECT_GT(rows[1].difference, -0.3);
     EXPECT_GT(rows[2].difference, -0.1);
@@ -74,7 +74,8 @@ TEST_F(ReplayIncremental, MapOfABoxRoomIsNearlyAsGoodAsBatchModels) {
     ASSERT_EQ(replay(room + " --split 4 --report " + path("plain")).exitCode, 0);
     const auto map = metrics("plain")["maps"][0];
     EXPECT_EQ(map["components_surface"], rows[0].components);
-    EXPECT_NEAR(map["loglik_hit"], rows[0].logLikelihood, 1e-4);
+    // But for rounding: its figures are those of the saved map.
+    EXPECT_NEAR(map["loglik_hit"], rows[0].logLikelihood, 2e-3);
 }
 
 TEST_F(ReplayIncremental, DoesNotDependOnTheNumberOfThreads) {
@@ -109,7 +110,7 @@ TEST_F(ReplayIncremental, KitchenIsWithin015NatOfTheBetterBatchModel) {
     if (!data) GTEST_SKIP() << "SKIPPED: HGMM_DATA_DIR is not set";
     const Outcome imported =
         run("hgmm-import", "7scenes '" + std::filesystem::absolute(data).string() +
-                               "/rgbd_kitchen' --step 4 -o '" + path("kitchen.rawlog") +
+                               "/rgbd_kitchen' -o '" + path("kitchen.rawlog") +
                                "' --poses-out '" + path("kitchen.tum") + "'");
     ASSERT_EQ(imported.exitCode, 0) << imported.err;
     const Outcome outcome =

@@ -123,24 +123,40 @@ TEST(Timing, OfFewScans) {
     EXPECT_EQ(median({4.0, 1.0, 3.0, 2.0}), 2.5);
 }
 
-TEST(Memory, ParametersAreTenFloatsAComponent) {
-    hgmm::Gaussian<3> g;
-    g.support = 1.0;
-    g.covariance.setIdentity();
-    hgmm::Mixture<3> mixture;
-    for (int i = 0; i < 7; ++i) mixture.pushBack(g);
-    EXPECT_EQ(parameterBytes(mixture), 280U);
+// Level 0 is what is saved: the sizes of components are those of the core's format.
+TEST(Memory, BytesOfLevel0AreThoseOfTheSavedMapButForItsHeader) {
+    const std::size_t header = hgmm::Map().save().size();
+    hgmm::Scan scan;
+    std::mt19937_64 engine(5);
+    std::uniform_real_distribution<float> uniform(-4.0F, 4.0F);
+    for (int i = 0; i < 20000; ++i) {
+        const float u = uniform(engine), v = uniform(engine);
+        scan.pushBack(u, v, 3.0F + 0.3F * std::sin(2 * u));
+        scan.pushBack(u, 4.0F + 0.3F * std::sin(2 * v), v);
+    }
+    hgmm::Map map;
+    map.insert(scan);
+    ASSERT_GT(map.mixture().size(), 100U);
+    ASSERT_GT(map.freeMixture().size(), 100U);
+    const auto components = double(map.save().size() - header);
+    EXPECT_NEAR(double(levelBytes(map, 0)), components, 0.05 * components);
+    // One kind alone must not hide behind the other.
+    const auto free = double(kFreeBytes * map.freeMixture().size());
+    EXPECT_GT(free, 0.1 * components);
+    EXPECT_LT(free, 0.9 * components);
 }
 
 TEST(Memory, ALevelIsItsSurfaceAndItsFreeSpace) {
-    hgmm::Mixture<4> free;
-    hgmm::Gaussian<4> g;
-    g.support = 1.0;
-    g.covariance.setIdentity();
-    for (int i = 0; i < 3; ++i) free.pushBack(g);
-    EXPECT_EQ(parameterBytes(free), 3U * 15 * 4);
-    const hgmm::Map map;
-    EXPECT_EQ(levelBytes(map, 0), 0U);
+    hgmm::Scan scan;
+    for (int i = -20; i <= 20; ++i)
+        for (int j = -20; j <= 20; ++j)
+            scan.pushBack(0.1F * float(i), 0.1F * float(j), 2.0F);
+    hgmm::Map map;
+    map.insert(scan);
+    for (std::size_t level = 0; level < map.levelCount(); ++level)
+        EXPECT_EQ(levelBytes(map, level),
+                  20 * map.mixture(level).size() + 23 * map.freeMixture(level).size());
+    EXPECT_EQ(levelBytes(hgmm::Map(), 0), 0U);
     EXPECT_THROW(levelBytes(map, map.levelCount()), std::out_of_range);
 }
 

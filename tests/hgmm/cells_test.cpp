@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "hgmm/filter.h"
 #include "room_scanner.h"
@@ -50,20 +51,22 @@ TEST(Cells, EverySampleHasANeighbourhoodInOrder) {
 }
 
 TEST(Cells, SizeFollowsTheRange) {
-    // The same pattern at ten times the range makes the same number of components.
+    // The same pattern, as large as the square root of the range, makes the same number of
+    // components.
     const auto components = [](double scale) {
         Mixture<3> samples;
         for (int i = 0; i < 40; ++i)
             for (int j = 0; j < 40; ++j) {
                 Gaussian<3> s;
                 s.support = 1;
-                s.mean << 4 * scale, scale * (0.05 * i - 1), scale * (0.05 * j - 1);
-                s.covariance = 1e-4 * scale * scale * Eigen::Matrix3d::Identity();
+                s.mean << 4 * scale, std::sqrt(scale) * (0.05 * i - 1),
+                    std::sqrt(scale) * (0.05 * j - 1);
+                s.covariance = 1e-4 * scale * Eigen::Matrix3d::Identity();
                 samples.pushBack(s);
             }
         return initialiseFromCells(samples, Eigen::Vector3d::Zero(), {}).mixture.size();
     };
-    EXPECT_EQ(components(1), components(8));
+    EXPECT_EQ(components(1), components(16));
     EXPECT_NEAR(double(components(1)), double(components(10)), 0.8 * double(components(1)));
 }
 

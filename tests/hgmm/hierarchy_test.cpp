@@ -142,13 +142,29 @@ void expectConsistent(const Mixture<D>& reference, const Hierarchy<D>& h, int le
 TEST(Hierarchy, LevelsLieOnTheCurve) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         const Mixture<3> reference = crowd<3>(seed, 200);
-        const Hierarchy<3> h = generateHierarchy(reference, HierarchyParams{});
+        HierarchyParams uncapped;
+        uncapped.similarityMax = 1e6;
+        const Hierarchy<3> h = generateHierarchy(reference, uncapped);
         expectConsistent(reference, h, 5);
         EXPECT_EQ(h.levels.size(), 5u);
         EXPECT_EQ(h.knee, findKnee(h.curve));
     }
     expectConsistent(crowd<2>(1, 100), generateHierarchy(crowd<2>(1, 100), {}), 5);
     expectConsistent(crowd<4>(1, 100), generateHierarchy(crowd<4>(1, 100), {}), 5);
+}
+
+TEST(Hierarchy, FidelityThresholdNeedsNoMoreThanSimilarityMax) {
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        const Mixture<3> reference = crowd<3>(seed, 200);
+        HierarchyParams params;
+        params.similarityMax = 1.6;
+        const Hierarchy<3> h = generateHierarchy(reference, params);
+        expectConsistent(reference, h, 5);
+        EXPECT_LE(h.curve[h.knee].similarity, params.similarityMax);
+        // The cap, not the knee, decided: the next pass needs more.
+        ASSERT_LT(h.knee, findKnee(h.curve));
+        EXPECT_GT(h.curve[h.knee + 1].similarity, params.similarityMax);
+    }
 }
 
 TEST(Hierarchy, FollowsTheSchedule) {

@@ -77,7 +77,9 @@ std::size_t estimatedSize(std::size_t planted, std::uint64_t seed) {
     em.maxIterations = 15;
     em.minImprovement = 1e-4;
     const EmResult<3> fit = fitSparse(samples, guess.mixture, guess.neighbourhoods, em);
-    return generateHierarchy(fit.mixture, HierarchyParams{}).levels[0].size();
+    HierarchyParams hierarchy;
+    hierarchy.similarityMax = 1e6;  // the knee decides alone
+    return generateHierarchy(fit.mixture, hierarchy).levels[0].size();
 }
 
 TEST(Knee, FindsTheSizeOfPlantedMixtures) {

@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 #include <mrpt/maps/CHGMMOccupancyMap.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iomanip>
+#include <string>
+#include <vector>
 
 #include "edited_options.h"
 #include "observations.h"
@@ -13,53 +16,135 @@ using mrpt::poses::CPose3D;
 
 namespace {
 
-// A map saved by the first release must load for ever and give the answers noted beside it:
-// the number of components, then lines "x y z log-density". To write both anew, before a
-// first release only, run this test with HGMM_WRITE_GOLDEN=1.
-const std::string kMap = HGMM_TEST_DATA "/map_v0.hgmm";
-const std::string kAnswers = HGMM_TEST_DATA "/map_v0.txt";
+// A map saved by a release must load for ever and give the answers noted beside it: the
+// number of components, then lines "x y z log-density", and from version 1 on, which has
+// free space, "P(occ) P(free)" behind them. To write those of today's version anew, before
+// it was released only, run these tests with HGMM_WRITE_GOLDEN=1.
+const std::string kData = HGMM_TEST_DATA "/";
+
+CHGMMOccupancyMap load(const std::string& name) {
+    CHGMMOccupancyMap map;
+    EXPECT_NO_THROW(map.loadFromFile(kData + name));
+    return map;
+}
+
+/// A point beside each of some twenty surface components, and one half way to its sensor.
+std::vector<Eigen::Vector3d> pointsOf(const hgmm::Map& map) {
+    std::vector<Eigen::Vector3d> points;
+    const auto& mixture = map.mixture();
+    for (std::size_t i = 0; i < mixture.size(); i += 1 + mixture.size() / 20) {
+        const hgmm::View view = map.views()[i];
+        points.push_back(map.origin() + mixture[i].mean +
+                         Eigen::Vector3d(0.005, -0.005, 0.005));
+        points.push_back(points.back() + 0.5 * view.range_m * view.direction);
+    }
+    return points;
+}
 
 void writeGolden() {
     CHGMMOccupancyMap map;
     map.insertObservation(*observations::laser(), CPose3D(10, -5, 0.3, 0.2, 0, 0));
     map.insertObservation(*observations::rotating(16, 91), CPose3D(10, -5, 0.3, 0.2, 0, 0));
     map.insertObservation(*observations::cloud(), CPose3D(12, -5, 0.3, 1.2, 0, 0));
-    edited::change(map.likelihoodOptions);
-    edited::change(map.renderOptions);
-    map.saveToFile(kMap);
-    std::ofstream answers(kAnswers);
-    const auto& mixture = map.model().mixture();
-    answers << mixture.size() << "\n" << std::setprecision(17);
-    for (std::size_t i = 0; i < mixture.size(); i += 1 + mixture.size() / 20) {
-        const Eigen::Vector3d p = map.model().origin() + mixture[i].mean.cast<double>() +
-                                  Eigen::Vector3d(0.005, -0.005, 0.005);
-        answers << p.x() << " " << p.y() << " " << p.z() << " " << map.model().logDensity(p)
-                << "\n";
+    edited::change(map);
+    map.saveToFile(kData + "map_v1.hgmm");
+
+    const CHGMMOccupancyMap saved = load("map_v1.hgmm");
+    const hgmm::Map& model = saved.model();
+    std::ofstream answers(kData + "map_v1.txt");
+    answers << model.mixture().size() << "\n" << std::setprecision(17);
+    for (const Eigen::Vector3d& p : pointsOf(model)) {
+        const hgmm::Occupancy occupancy = model.occupancy(p);
+        answers << p.x() << " " << p.y() << " " << p.z() << " " << model.logDensity(p)
+                << " " << occupancy.occupied << " " << occupancy.free << "\n";
     }
 }
 
-TEST(GoldenFile, MapOfVersion0LoadsAndAnswersAsEver) {
-    if (std::getenv("HGMM_WRITE_GOLDEN")) writeGolden();
-    CHGMMOccupancyMap map;
-    ASSERT_NO_THROW(map.loadFromFile(kMap));
-    std::ifstream answers(kAnswers);
+/// Lines of numbers behind the number of components, which is checked.
+std::vector<std::vector<double>> readAnswers(const std::string& name,
+                                             const hgmm::Map& map) {
+    std::ifstream file(kData + name);
     std::size_t components = 0;
-    ASSERT_TRUE(answers >> components) << kAnswers;
-    EXPECT_EQ(map.model().mixture().size(), components);
-    EXPECT_NO_THROW(map.model().mixture().check());
-    int points = 0;
-    for (double x, y, z, expected; answers >> x >> y >> z >> expected; ++points)
-        EXPECT_NEAR(map.model().logDensity({x, y, z}), expected,
-                    1e-4 * std::abs(expected) + 1e-4)
-            << x << " " << y << " " << z;
-    EXPECT_GE(points, 3);
+    EXPECT_TRUE(file >> components) << name;
+    EXPECT_EQ(map.mixture().size(), components);
+    EXPECT_NO_THROW(map.mixture().check());
+    std::vector<std::vector<double>> answers;
+    std::string line;
+    std::getline(file, line);
+    while (std::getline(file, line)) {
+        // strtod reads "-inf", which a stream does not.
+        std::vector<double>& numbers = answers.emplace_back();
+        char* end = line.data();
+        for (const char* at = end; numbers.push_back(std::strtod(at, &end)), end != at;)
+            at = end;
+        numbers.pop_back();
+    }
+    return answers;
+}
+
+void expectLogDensity(const hgmm::Map& map, const std::vector<double>& answer) {
+    const double got = map.logDensity({answer[0], answer[1], answer[2]});
+    if (std::isinf(answer[3]))
+        EXPECT_EQ(got, answer[3]);
+    else
+        EXPECT_NEAR(got, answer[3], 1e-4 * std::abs(answer[3]) + 1e-4);
+}
+
+TEST(GoldenFile, MapOfVersion0LoadsAndAnswersAsEver) {
+    const CHGMMOccupancyMap map = load("map_v0.hgmm");
+    const auto answers = readAnswers("map_v0.txt", map.model());
+    EXPECT_GE(answers.size(), 3U);
+    for (const auto& answer : answers) {
+        ASSERT_EQ(answer.size(), 4U);
+        expectLogDensity(map.model(), answer);
+    }
 
     CHGMMOccupancyMap wanted;
     edited::change(wanted.likelihoodOptions);
-    edited::change(wanted.renderOptions);
     EXPECT_EQ(edited::values(map.likelihoodOptions),
               edited::values(wanted.likelihoodOptions));
-    EXPECT_EQ(edited::values(map.renderOptions), edited::values(wanted.renderOptions));
+    // Version 0 had four render options; the others keep their defaults.
+    auto& render = wanted.renderOptions;
+    CHGMMOccupancyMap changed;
+    edited::change(changed.renderOptions);
+    render.level = changed.renderOptions.level;
+    render.sigmas = changed.renderOptions.sigmas;
+    render.maxEllipsoids = changed.renderOptions.maxEllipsoids;
+    render.colour = changed.renderOptions.colour;
+    EXPECT_EQ(edited::values(map.renderOptions), edited::values(render));
+}
+
+// It has no free space and no views, so that a new scan must bring both.
+TEST(GoldenFile, MapOfVersion0GoesOn) {
+    CHGMMOccupancyMap map = load("map_v0.hgmm");
+    EXPECT_TRUE(map.model().freeMixture().empty());
+    ASSERT_TRUE(
+        map.insertObservation(*observations::laser(), CPose3D(10, -5, 0.3, 0.2, 0, 0)));
+    EXPECT_NO_THROW(map.model().mixture().check());
+    EXPECT_FALSE(map.model().freeMixture().empty());
+}
+
+TEST(GoldenFile, MapOfVersion1LoadsAndAnswersAsEver) {
+    if (std::getenv("HGMM_WRITE_GOLDEN")) writeGolden();
+    const CHGMMOccupancyMap map = load("map_v1.hgmm");
+    const auto answers = readAnswers("map_v1.txt", map.model());
+    int occupied = 0, free = 0;
+    for (const auto& answer : answers) {
+        ASSERT_EQ(answer.size(), 6U);
+        expectLogDensity(map.model(), answer);
+        const hgmm::Occupancy got =
+            map.model().occupancy({answer[0], answer[1], answer[2]});
+        EXPECT_NEAR(got.occupied, answer[4], 1e-3);
+        EXPECT_NEAR(got.free, answer[5], 1e-3);
+        occupied += answer[4] > 0.5 ? 1 : 0;
+        free += answer[5] > 0.5 ? 1 : 0;
+    }
+    EXPECT_GE(occupied, 5);
+    EXPECT_GE(free, 5);
+
+    CHGMMOccupancyMap wanted;
+    edited::change(wanted);
+    EXPECT_EQ(edited::all(map), edited::all(wanted));
 }
 
 }  // namespace

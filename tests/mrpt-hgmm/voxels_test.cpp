@@ -74,13 +74,44 @@ TEST(Voxels, WallsAreOccupiedWithoutHoles) {
     EXPECT_GT(occupied, 0.98 * asked);
 }
 
+/// How far a point is behind the wall that hides it, and how far its place on that wall is
+/// from the wall's edge; negative where the point is in the room, or hidden by two walls.
+struct Behind {
+    double depth_m, fromEdge_m;
+};
+Behind behind(const Eigen::Vector3d& point_map) {
+    const Eigen::Vector3d beyond =
+        (point_map - lit_room::kMiddle_map).cwiseAbs() - lit_room::kHalf_m;
+    Behind result{0, std::numeric_limits<double>::infinity()};
+    int wall = 0;
+    result.depth_m = beyond.maxCoeff(&wall);
+    for (int axis = 0; axis < 3; ++axis)
+        if (axis != wall) result.fromEdge_m = std::min(result.fromEdge_m, -beyond[axis]);
+    return result;
+}
+
+// Components are Gaussians, here of a quarter of a metre: those at an edge of the room let
+// the plane of its wall go on a little, and free components of a metre fade out behind it.
+// Issue 3 asks for the unknown from 0.5 m on; nearer, a share of the voxels is borne.
 TEST(Voxels, NothingIsOccupiedOrFreeBehindWalls) {
-    const VoxelGrid grid = voxelise(room().model(), at(0.1));
-    std::size_t behind = 0;
-    for (const Voxel& voxel : grid.voxels)
-        behind += lit_room::depthInside(voxel.centre_map) < -0.15 ? 1 : 0;
+    const double edge_m = 0.1;
+    const VoxelGrid grid = voxelise(room().model(), at(edge_m));
+    std::size_t near = 0;
+    for (const Voxel& voxel : grid.voxels) {
+        const Behind b = behind(voxel.centre_map);
+        EXPECT_LE(b.depth_m, 0.5 + edge_m) << voxel.centre_map.transpose();
+        if (b.depth_m < 0.15) continue;
+        ++near;
+        if (b.fromEdge_m > 0.2) {
+            EXPECT_FALSE(voxel.occupied) << voxel.centre_map.transpose();
+        }
+    }
     EXPECT_GT(grid.voxels.size(), 1000U);
-    EXPECT_LE(behind, grid.voxels.size() / 200);
+    const auto volume = [](double depth_m) {
+        return (2 * (lit_room::kHalf_m.array() + depth_m)).prod();
+    };
+    const double shell_m3 = volume(0.5) - volume(0.15);
+    EXPECT_LE(double(near) * std::pow(edge_m, 3), 0.12 * shell_m3);
 }
 
 TEST(Voxels, RoomIsFreeInside) {
@@ -98,7 +129,7 @@ TEST(Voxels, RoomIsFreeInside) {
                 if (cell == cells.end()) continue;
                 (cell->second->occupied ? occupied : free) += 1;
             }
-    EXPECT_GT(free, 0.97 * asked);
+    EXPECT_GT(free, 0.995 * asked);
     EXPECT_LE(occupied, asked / 200);
 }
 
@@ -122,7 +153,7 @@ TEST(Voxels, EnumerationMissesNothingThatBruteForceFinds) {
                 missed += cells.count(indexOf(centre, edge_m)) == 0 ? 1 : 0;
             }
     EXPECT_GT(asked, 1000);
-    EXPECT_LE(missed, asked / 100);
+    EXPECT_LE(missed, asked / 1000);
 }
 
 TEST(Voxels, AnswersAreThoseOfTheMapInTheCell) {

@@ -7,7 +7,8 @@ Memory memoryOf(const Map& map) {
 }
 
 std::size_t levelBytes(const Map& map, std::size_t level) {
-    return parameterBytes(map.mixture(level)) + parameterBytes(map.freeMixture(level));
+    return kSurfaceBytes * map.mixture(level).size() +
+           kFreeBytes * map.freeMixture(level).size();
 }
 
 }  // namespace hgmm::evaluation

@@ -27,6 +27,7 @@ Json protocolJson(const Run& run) {
             {"seed", run.split.seed},
             {"near_m", {run.nearBand.min_m, run.nearBand.max_m}},
             {"free_band_m", {run.freeBand.fromSensor_m, run.freeBand.beforeHit_m}},
+            {"range_noise_m", run.rangeNoise_m},
             {"threads", run.threads}};
 }
 

@@ -1,10 +1,11 @@
 #include "component_codec.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <map>
+#include <numeric>
 #include <stdexcept>
 
 #include "hgmm/conditional.h"
@@ -32,7 +33,11 @@ struct LogScale {
 };
 
 constexpr LogScale kSigma{5e-4, 500.0, 256};
-constexpr LogScale kOffDiagonal{1e-6, 1e3, 32767};
+/// The factor's other entries, in steps of a share of their row's diagonal entry, which is
+/// their scale: so the error is a share of the component's thickness, and what rounding to
+/// float does to them stays below half a step.
+constexpr double kStepsPerDiagonal = 32.0;
+constexpr double kMaxPerDiagonal = 950.0;
 constexpr LogScale kSupport{1e-6, 1e12, 65536};
 constexpr LogScale kRange{0.05, 1e4, 255};
 constexpr LogScale kDistance{1e-3, 1e4, 256};
@@ -82,15 +87,30 @@ void putPlace(Out& out, const Block& block, const Eigen::Vector3d& mean,
               const Eigen::Matrix3d& covariance, double support) {
     for (int d = 0; d < 3; ++d) {
         const double inside = mean[d] / kBlock_m - block[d];
-        out.put(static_cast<std::uint16_t>(std::min(inside * 65536, 65535.0)));
+        out.put(static_cast<std::uint16_t>(std::clamp(inside * 65536, 0.0, 65535.0)));
     }
     const Eigen::Matrix3d L = covariance.llt().matrixL();
-    for (int d = 0; d < 3; ++d) out.put(static_cast<std::uint8_t>(kSigma.encode(L(d, d))));
-    for (const double v : {L(1, 0), L(2, 0), L(2, 1)}) {
-        const int magnitude =
-            std::abs(v) < kOffDiagonal.low ? 0 : kOffDiagonal.encode(std::abs(v)) + 1;
-        out.put(static_cast<std::uint16_t>(magnitude | (v < 0 ? 0x8000 : 0)));
+    std::array<double, 3> diagonal{};
+    for (int d = 0; d < 3; ++d) {
+        const double beside = L.row(d).head(d).cwiseAbs().sum();
+        const int code = kSigma.encode(std::max(L(d, d), beside / kMaxPerDiagonal));
+        diagonal[d] = kSigma.decode(code);
+        out.put(static_cast<std::uint8_t>(code));
     }
+    // Slopes of one axis over another, not the entries themselves: a slope must be good to
+    // the thickness of the component over its length, whatever became of the diagonal.
+    const auto putSlope = [&](int row, int col, double slope) {
+        const double perStep = diagonal[row] / diagonal[col] / kStepsPerDiagonal;
+        const auto steps = static_cast<std::int16_t>(
+            std::lround(std::clamp(slope / perStep, -32767.0, 32767.0)));
+        out.put(steps);
+        return steps * perStep;
+    };
+    const double slope10 = L(1, 0) / L(0, 0), slope21 = L(2, 1) / L(1, 1);
+    const double error10 = putSlope(1, 0, slope10) - slope10;
+    // Axis 2 follows axis 1, and so what axis 1 lost on its way over axis 0.
+    putSlope(2, 0, L(2, 0) / L(0, 0) + slope21 * error10);
+    putSlope(2, 1, slope21);
     out.put(static_cast<std::uint16_t>(kSupport.encode(support)));
 }
 
@@ -99,12 +119,9 @@ void getPlace(In& in, const Block& block, Gaussian<3>& g) {
         g.mean[d] = (block[d] + (in.get<std::uint16_t>() + 0.5) / 65536) * kBlock_m;
     Eigen::Matrix3d L = Eigen::Matrix3d::Zero();
     for (int d = 0; d < 3; ++d) L(d, d) = kSigma.decode(in.get<std::uint8_t>());
-    for (double* v : {&L(1, 0), &L(2, 0), &L(2, 1)}) {
-        const auto code = in.get<std::uint16_t>();
-        const int magnitude = code & 0x7FFF;
-        *v = magnitude == 0 ? 0.0 : kOffDiagonal.decode(magnitude - 1);
-        if ((code & 0x8000) != 0) *v = -*v;
-    }
+    for (int row = 1; row < 3; ++row)
+        for (int col = 0; col < row; ++col)
+            L(row, col) = in.get<std::int16_t>() / kStepsPerDiagonal * L(row, row);
     g.covariance = L * L.transpose();
     g.support = kSupport.decode(in.get<std::uint16_t>());
 }
@@ -133,18 +150,34 @@ Eigen::Vector3d getDirection(In& in) {
     return Eigen::Vector3d(a, b, z).normalized();
 }
 
-/// Calls record(block, i) for each component, block after block.
+template <int D>
+Block blockOf(const Mixture<D>& mixture, std::size_t i) {
+    return blockOf(
+        Eigen::Vector3d(mixture.mean[0][i], mixture.mean[1][i], mixture.mean[2][i]));
+}
+
+/// Calls record(block, i) for each component in the order given, of which each run within
+/// one block shares a head.
 template <int D, typename Record>
-void forEachBlock(const Mixture<D>& mixture, Out& out, Record&& record) {
-    std::map<Block, std::vector<std::size_t>> blocks;
-    for (std::size_t i = 0; i < mixture.size(); ++i)
-        blocks[blockOf({mixture.mean[0][i], mixture.mean[1][i], mixture.mean[2][i]})]
-            .push_back(i);
-    out.put(static_cast<std::uint32_t>(blocks.size()));
-    for (const auto& [block, members] : blocks) {
-        for (const std::int32_t v : block) out.put(v);
-        out.put(static_cast<std::uint32_t>(members.size()));
-        for (const std::size_t i : members) record(block, i);
+void forEachBlock(const Mixture<D>& mixture, const std::vector<std::uint32_t>& order,
+                  std::vector<std::uint8_t>& bytes, Record&& record) {
+    struct Run {
+        Block block;
+        std::uint32_t members;
+    };
+    std::vector<Run> runs;
+    for (const std::uint32_t i : order) {
+        const Block block = blockOf(mixture, i);
+        if (runs.empty() || runs.back().block != block) runs.push_back({block, 0});
+        ++runs.back().members;
+    }
+    Out out(bytes);
+    out.put(static_cast<std::uint32_t>(runs.size()));
+    auto next = order.begin();
+    for (const Run& run : runs) {
+        for (const std::int32_t v : run.block) out.put(v);
+        out.put(run.members);
+        for (std::uint32_t m = 0; m < run.members; ++m) record(run.block, *next++);
     }
 }
 
@@ -159,18 +192,120 @@ void readBlocks(In& in, Record&& record) {
     }
 }
 
+/// As a Mixture holds it.
+template <int D>
+Gaussian<D> asStored(const Gaussian<D>& component) {
+    Gaussian<D> g = storable(component);
+    g.support = static_cast<float>(g.support);
+    g.mean = g.mean.template cast<float>().template cast<double>().eval();
+    g.covariance = g.covariance.template cast<float>().template cast<double>().eval();
+    return g;
+}
+
+struct Surface {
+    Gaussian<3> g;
+    View view;
+};
+
+void putRecord(Out& out, const Block& block, const Surface& surface) {
+    const auto& [g, view] = surface;
+    putPlace(out, block, g.mean, g.covariance, g.support);
+    putDirection(out, view.known() ? view.direction : Eigen::Vector3d::UnitZ());
+    out.put(static_cast<std::uint8_t>(view.known() ? 1 + kRange.encode(view.range_m) : 0));
+}
+
+void getRecord(In& in, const Block& block, Surface& surface) {
+    auto& [g, view] = surface;
+    getPlace(in, block, g);
+    g = asStored(g);
+    view.direction = getDirection(in).cast<float>().cast<double>();
+    const auto range = in.get<std::uint8_t>();
+    if (range == 0) view.direction.setZero();
+    view.range_m = range > 0 ? static_cast<float>(kRange.decode(range - 1)) : 0.0;
+}
+
+struct FreeComponent {
+    Gaussian<4> g;
+    int octave = 0;
+};
+
+void putRecord(Out& out, const Block& block, const FreeComponent& component) {
+    const auto& [g, octave] = component;
+    const RegressedGaussian<4> w(g, 1.0);
+    putPlace(out, block, g.mean.head<3>(), g.covariance.topLeftCorner<3, 3>(), g.support);
+    out.put(static_cast<std::int8_t>(octave));
+    out.put(static_cast<std::uint8_t>(kDistance.encode(g.mean[3])));
+    for (int d = 0; d < 3; ++d)
+        out.put(static_cast<std::int8_t>(
+            std::lround(std::clamp(w.slope(d) * 100, -127.0, 127.0))));
+    out.put(static_cast<std::uint8_t>(kDistance.encode(std::sqrt(w.variance()))));
+}
+
+void getRecord(In& in, const Block& block, FreeComponent& component) {
+    Gaussian<3> place;
+    getPlace(in, block, place);
+    component.octave = in.get<std::int8_t>();
+    Gaussian<4>& g = component.g;
+    g.support = place.support;
+    g.mean.head<3>() = place.mean;
+    g.mean[3] = kDistance.decode(in.get<std::uint8_t>());
+    Eigen::Vector3d slope;
+    for (int d = 0; d < 3; ++d) slope[d] = in.get<std::int8_t>() / 100.0;
+    const double sigma = kDistance.decode(in.get<std::uint8_t>());
+    const Eigen::Vector3d cross = place.covariance * slope;
+    g.covariance.topLeftCorner<3, 3>() = place.covariance;
+    g.covariance.topRightCorner<3, 1>() = cross;
+    g.covariance.bottomLeftCorner<1, 3>() = cross.transpose();
+    g.covariance(3, 3) = sigma * sigma + slope.dot(cross);
+    g = asStored(g);
+}
+
+/// Appends the record of a component, chosen so that what is read from it has the same
+/// record again. Where rounding to float moves a component across the edge of a step, it
+/// is followed until it stays; one that does not, at the limits of float, is widened.
+template <typename Component>
+void putStable(std::vector<std::uint8_t>& bytes, const Block& block, Component component) {
+    constexpr int kFollow = 8, kGiveUp = 64;
+    std::vector<std::uint8_t> record, again;
+    Out recordOut(record);
+    putRecord(recordOut, block, component);
+    for (int round = 0; round < kGiveUp; ++round) {
+        In in(record.data(), record.size());
+        getRecord(in, block, component);
+        if (round >= kFollow) {
+            auto place = component.g.covariance.diagonal().template head<3>();
+            place.array() += 1e-6 * place.sum();
+        }
+        again.clear();
+        Out out(again);
+        putRecord(out, block, component);
+        if (again == record) break;
+        record.swap(again);
+    }
+    bytes.insert(bytes.end(), record.begin(), record.end());
+}
+
 }  // namespace
 
+template <int D>
+std::vector<std::uint32_t> blockOrder(const Mixture<D>& mixture) {
+    std::vector<Block> blocks;
+    for (std::size_t i = 0; i < mixture.size(); ++i) blocks.push_back(blockOf(mixture, i));
+    std::vector<std::uint32_t> order(mixture.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return blocks[a] < blocks[b];
+    });
+    return order;
+}
+template std::vector<std::uint32_t> blockOrder(const Mixture<3>&);
+template std::vector<std::uint32_t> blockOrder(const Mixture<4>&);
+
 void encodeSurfaces(const Mixture<3>& mixture, const Views& views,
+                    const std::vector<std::uint32_t>& order,
                     std::vector<std::uint8_t>& bytes) {
-    Out out(bytes);
-    forEachBlock(mixture, out, [&](const Block& block, std::size_t i) {
-        const Gaussian<3> g = mixture[i];
-        const View view = views[i];
-        putPlace(out, block, g.mean, g.covariance, g.support);
-        putDirection(out, view.known() ? view.direction : Eigen::Vector3d::UnitZ());
-        out.put(
-            static_cast<std::uint8_t>(view.known() ? 1 + kRange.encode(view.range_m) : 0));
+    forEachBlock(mixture, order, bytes, [&](const Block& block, std::size_t i) {
+        putStable(bytes, block, Surface{mixture[i], views[i]});
     });
 }
 
@@ -178,33 +313,18 @@ std::size_t decodeSurfaces(const std::uint8_t* data, std::size_t size, Mixture<3
                            Views& views) {
     In in(data, size);
     readBlocks(in, [&](const Block& block) {
-        Gaussian<3> g;
-        getPlace(in, block, g);
-        View view;
-        view.direction = getDirection(in);
-        const auto range = in.get<std::uint8_t>();
-        if (range == 0) view.direction.setZero();
-        if (range > 0) view.range_m = kRange.decode(range - 1);
-        mixture.pushBack(storable(g));
-        views.pushBack(view);
+        Surface surface;
+        getRecord(in, block, surface);
+        mixture.pushBack(surface.g);
+        views.pushBack(surface.view);
     });
     return in.read();
 }
 
 void encodeFree(const Mixture<4>& mixture, const std::vector<int>& octaves,
-                std::vector<std::uint8_t>& bytes) {
-    Out out(bytes);
-    forEachBlock(mixture, out, [&](const Block& block, std::size_t i) {
-        const Gaussian<4> g = mixture[i];
-        const RegressedGaussian<4> w(g, 1.0);
-        putPlace(out, block, g.mean.head<3>(), g.covariance.topLeftCorner<3, 3>(),
-                 g.support);
-        out.put(static_cast<std::int8_t>(octaves[i]));
-        out.put(static_cast<std::uint8_t>(kDistance.encode(g.mean[3])));
-        for (int d = 0; d < 3; ++d)
-            out.put(static_cast<std::int8_t>(
-                std::lround(std::clamp(w.slope(d) * 100, -127.0, 127.0))));
-        out.put(static_cast<std::uint8_t>(kDistance.encode(std::sqrt(w.variance()))));
+                const std::vector<std::uint32_t>& order, std::vector<std::uint8_t>& bytes) {
+    forEachBlock(mixture, order, bytes, [&](const Block& block, std::size_t i) {
+        putStable(bytes, block, FreeComponent{mixture[i], octaves[i]});
     });
 }
 
@@ -212,22 +332,10 @@ std::size_t decodeFree(const std::uint8_t* data, std::size_t size, Mixture<4>& m
                        std::vector<int>& octaves) {
     In in(data, size);
     readBlocks(in, [&](const Block& block) {
-        Gaussian<3> place;
-        getPlace(in, block, place);
-        octaves.push_back(in.get<std::int8_t>());
-        Gaussian<4> g;
-        g.support = place.support;
-        g.mean.head<3>() = place.mean;
-        g.mean[3] = kDistance.decode(in.get<std::uint8_t>());
-        Eigen::Vector3d slope;
-        for (int d = 0; d < 3; ++d) slope[d] = in.get<std::int8_t>() / 100.0;
-        const double sigma = kDistance.decode(in.get<std::uint8_t>());
-        const Eigen::Vector3d cross = place.covariance * slope;
-        g.covariance.topLeftCorner<3, 3>() = place.covariance;
-        g.covariance.topRightCorner<3, 1>() = cross;
-        g.covariance.bottomLeftCorner<1, 3>() = cross.transpose();
-        g.covariance(3, 3) = sigma * sigma + slope.dot(cross);
-        mixture.pushBack(storable(g));
+        FreeComponent component;
+        getRecord(in, block, component);
+        mixture.pushBack(component.g);
+        octaves.push_back(component.octave);
     });
     return in.read();
 }

@@ -198,8 +198,8 @@ double Fit<D>::expectSample(std::size_t i) {
     double sum = 0;
     for (std::uint32_t e = first; e < last; ++e) {
         const double relative = responsibility_[e] - likeliest;
-        // exp(-40) is below the rounding of the sum.
-        responsibility_[e] = relative < -40 ? 0 : std::exp(relative);
+        // A share of exp(-20) moves no parameter that is kept as a float.
+        responsibility_[e] = relative < -20 ? 0 : std::exp(relative);
         sum += responsibility_[e];
     }
     for (std::uint32_t e = first; e < last; ++e) responsibility_[e] /= sum;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 #include "hgmm/require.h"
 
@@ -12,21 +13,23 @@ namespace {
 
 /// Sums over the points of one leaf, taken about its first point so that they keep their
 /// digits far from the sensor.
-struct Leaf {
-    std::uint64_t key = 0;
-    std::array<float, 3> anchor{};
+struct Sums {
     double count = 0;
     std::array<double, 3> sum{};
     std::array<double, 6> sumOuter{};
 
-    void add(float x, float y, float z) {
-        const double dx = double(x) - anchor[0], dy = double(y) - anchor[1],
-                     dz = double(z) - anchor[2];
+    void add(double dx, double dy, double dz) {
         count += 1;
         sum[0] += dx, sum[1] += dy, sum[2] += dz;
         sumOuter[0] += dx * dx, sumOuter[1] += dx * dy, sumOuter[2] += dx * dz;
         sumOuter[3] += dy * dy, sumOuter[4] += dy * dz, sumOuter[5] += dz * dz;
     }
+};
+
+struct Leaf {
+    std::uint64_t key = 0;
+    std::array<float, 3> anchor{};
+    Sums sums;
 };
 
 /// Open-addressing table from leaf key to leaf, in order of first appearance.
@@ -38,7 +41,8 @@ class LeafTable {
         slots_.assign(slots, kFree);
     }
 
-    Leaf& find(std::uint64_t key, float x, float y, float z) {
+    /// Number of the leaf of a key; a new one is anchored at (x, y, z).
+    std::uint32_t find(std::uint64_t key, float x, float y, float z) {
         const std::size_t mask = slots_.size() - 1;
         for (std::size_t slot = hash(key) & mask;; slot = (slot + 1) & mask) {
             if (slots_[slot] == kFree) {
@@ -47,13 +51,13 @@ class LeafTable {
                     return find(key, x, y, z);
                 }
                 slots_[slot] = static_cast<std::uint32_t>(leaves_.size());
-                leaves_.push_back({key, {x, y, z}, 0, {}, {}});
+                leaves_.push_back({key, {x, y, z}, {}});
             }
-            Leaf& leaf = leaves_[slots_[slot]];
-            if (leaf.key == key) return leaf;
+            if (leaves_[slots_[slot]].key == key) return slots_[slot];
         }
     }
 
+    Leaf& operator[](std::uint32_t i) { return leaves_[i]; }
     const std::vector<Leaf>& leaves() const { return leaves_; }
 
  private:
@@ -78,28 +82,47 @@ class LeafTable {
     std::vector<Leaf> leaves_;
 };
 
+/// floor(log2(v)) of a normal positive number. std::ilogb is a call that would
+/// take a good part of the filter's time.
+int octaveOf(float v) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &v, sizeof(bits));
+    return static_cast<int>(bits >> 23U) - 127;
+}
+
+/// 2^exponent, for exponents of normal numbers.
+float powerOfTwo(int exponent) {
+    const auto bits = static_cast<std::uint32_t>(exponent + 127) << 23U;
+    float v = 0;
+    std::memcpy(&v, &bits, sizeof(v));
+    return v;
+}
+
+/// 19 bits an axis hold any leaf index, at the smallest leaves and 100 km.
+constexpr unsigned kIndexBits = 19;
+
 std::uint64_t leafKey(int octave, float x, float y, float z) {
-    // 19 bits an axis hold any leaf index, at the smallest leaves and 100 km.
-    constexpr std::uint64_t mask = (1U << 19U) - 1U;
-    const float perLeaf = std::ldexp(1.F, -octave);
-    const auto cell = [&](float v) {
+    const float perLeaf = powerOfTwo(-octave);
+    // Above zero, conversion rounds down; std::floor would be a call.
+    constexpr double middle = 1U << (kIndexBits - 1);
+    const auto index = [&](float v) {
         return static_cast<std::uint64_t>(
-                   static_cast<std::int64_t>(std::floor(v * perLeaf))) &
-               mask;
+            static_cast<std::int64_t>(double(v * perLeaf) + middle));
     };
-    return static_cast<std::uint64_t>(octave + 32) << 57U | cell(x) << 38U |
-           cell(y) << 19U | cell(z);
+    return static_cast<std::uint64_t>(octave + 32) << (3 * kIndexBits) |
+           index(x) << (2 * kIndexBits) | index(y) << kIndexBits | index(z);
 }
 
 Gaussian<3> sampleOf(const Leaf& leaf, const FilterParams& params) {
+    const Sums& sums = leaf.sums;
     Gaussian<3> g;
-    g.support = leaf.count;
-    Eigen::Vector3d offset(leaf.sum[0], leaf.sum[1], leaf.sum[2]);
-    offset /= leaf.count;
+    g.support = sums.count;
+    Eigen::Vector3d offset(sums.sum[0], sums.sum[1], sums.sum[2]);
+    offset /= sums.count;
     for (int row = 0, k = 0; row < 3; ++row)
         for (int col = row; col < 3; ++col, ++k)
             g.covariance(row, col) = g.covariance(col, row) =
-                leaf.sumOuter[k] / leaf.count - offset[row] * offset[col];
+                sums.sumOuter[k] / sums.count - offset[row] * offset[col];
     for (int d = 0; d < 3; ++d) g.mean[d] = leaf.anchor[d] + offset[d];
     const double noise = params.noiseAt(g.mean.norm());
     for (int d = 0; d < 3; ++d)
@@ -119,30 +142,43 @@ void FilterParams::validate() const {
 }
 
 Mixture<3> filterScan(const Scan& scan, const FilterParams& params, FilterCounts* counts) {
-    const auto leafAtOneMetre = static_cast<float>(params.leafAtOneMetre_m);
-    const auto minLeaf = static_cast<float>(params.minLeaf_m);
-    const auto minRange = static_cast<float>(params.minRange_m);
-    const auto maxRange = static_cast<float>(params.maxRange_m);
+    // An edge of c sqrt(r) has the octave of its fourth power c^4 r^2, divided by four.
+    const auto fourthPower = [](double v) { return static_cast<float>(v * v * v * v); };
+    const float leafAtOneMetre4 = fourthPower(params.leafAtOneMetre_m);
+    const float minLeaf4 = fourthPower(params.minLeaf_m);
+    const auto minRange2 = static_cast<float>(params.minRange_m * params.minRange_m);
+    const auto maxRange2 = static_cast<float>(params.maxRange_m * params.maxRange_m);
     FilterCounts counted;
     LeafTable table(scan.size());
+    // Neighbouring points mostly share a leaf: its sums stay in registers meanwhile.
+    std::uint64_t current = ~std::uint64_t{0};
+    std::uint32_t leaf = 0;
+    std::array<double, 3> anchor{};
+    Sums sums;
     for (std::size_t i = 0; i < scan.size(); ++i) {
         const float x = scan.x[i], y = scan.y[i], z = scan.z[i];
-        if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) {
-            ++counted.notFinite;
+        const float range2 = x * x + y * y + z * z;
+        if (!(range2 >= minRange2 && range2 <= maxRange2) || range2 == 0.F) {
+            const bool finite = std::isfinite(x) && std::isfinite(y) && std::isfinite(z);
+            ++(finite ? counted.outOfRange : counted.notFinite);
             continue;
         }
-        const float range = std::sqrt(x * x + y * y + z * z);
-        if (!(range >= minRange && range <= maxRange) || range == 0.F) {
-            ++counted.outOfRange;
-            continue;
+        const int octave = octaveOf(std::max(minLeaf4, leafAtOneMetre4 * range2)) >> 2;
+        const std::uint64_t key = leafKey(octave, x, y, z);
+        if (key != current) {
+            if (counted.used > 0) table[leaf].sums = sums;
+            current = key;
+            leaf = table.find(key, x, y, z);
+            anchor = {table[leaf].anchor[0], table[leaf].anchor[1], table[leaf].anchor[2]};
+            sums = table[leaf].sums;
         }
-        const int octave = std::ilogb(std::max(minLeaf, leafAtOneMetre * std::sqrt(range)));
-        table.find(leafKey(octave, x, y, z), x, y, z).add(x, y, z);
+        sums.add(x - anchor[0], y - anchor[1], z - anchor[2]);
         ++counted.used;
     }
+    if (counted.used > 0) table[leaf].sums = sums;
     Mixture<3> samples;
     samples.reserve(table.leaves().size());
-    for (const Leaf& leaf : table.leaves()) samples.pushBack(sampleOf(leaf, params));
+    for (const Leaf& filled : table.leaves()) samples.pushBack(sampleOf(filled, params));
     if (counts != nullptr) *counts = counted;
     return samples;
 }

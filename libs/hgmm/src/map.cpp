@@ -117,9 +117,14 @@ std::vector<RayBundle> Map::insertSurfaces(const Mixture<3>& samples,
                       viewFrom(sensorOrigin, bundles[k].mean), bundles[k].support));
     }
     const std::size_t before = surfaces.size();
-    if (!split.novel.empty())
-        surfaces.append(
-            novelComponents(selected(samples, split.novel), sensorOrigin, params_));
+    if (!split.novel.empty()) {
+        const Mixture<3> novel =
+            novelComponents(selected(samples, split.novel), sensorOrigin, params_);
+        // EM leaves components that hardly explain anything; they would still answer.
+        for (std::size_t i = 0; i < novel.size(); ++i)
+            if (novel.support[i] >= params_.contradiction.minSupport)
+                surfaces.pushBack(novel[i]);
+    }
     for (std::size_t i = before; i < surfaces.size(); ++i) {
         bundles.push_back(surfaces[i]);
         model_.views.pushBack(viewFrom(sensorOrigin, bundles.back().mean));

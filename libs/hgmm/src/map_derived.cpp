@@ -49,13 +49,20 @@ Mixture<4> freeOfLevel(const Mixture<4>& free, const std::vector<std::uint32_t>&
 
 }  // namespace
 
+void Map::Derived::Level::clear() {
+    ready.store(nullptr, std::memory_order_release);
+    occupancy.reset();
+    hasFeatures = false;
+}
+
 void Map::Derived::prepare(const Map& map) {
     if (ready_.load(std::memory_order_acquire)) return;
     const std::lock_guard<std::mutex> lock(mutex_);
     if (ready_.load(std::memory_order_relaxed)) return;
     for (std::uint32_t i = 0; i < map.model_.surfaces.size(); ++i) enterSurface(map, i);
     logTotal_ = std::log(map.model_.surfaces.totalSupport());
-    ensureLevels(map);
+    levelCount_ = map.levelCount();
+    levels_ = std::make_unique<Level[]>(levelCount_);
     ready_.store(true, std::memory_order_release);
 }
 
@@ -124,6 +131,9 @@ const Mixture<4>& Map::Derived::freeMixture(const Map& map, std::size_t level) {
 
 const OccupancyModel& Map::Derived::occupancy(const Map& map, std::size_t level) {
     prepare(map);
+    std::atomic<const OccupancyModel*>& ready = levels_[level].ready;
+    // Single queries come by the million: no lock for them.
+    if (const OccupancyModel* model = ready.load(std::memory_order_acquire)) return *model;
     const std::lock_guard<std::mutex> lock(mutex_);
     std::unique_ptr<OccupancyModel>& occupancy = levels_[level].occupancy;
     if (occupancy) return *occupancy;
@@ -137,6 +147,7 @@ const OccupancyModel& Map::Derived::occupancy(const Map& map, std::size_t level)
             blocks_.levels(map.model_.surfaces, map.params_.hierarchy)[level - 1];
         occupancy = makeOccupancy(surfaces, features.views, features.free, params);
     }
+    ready.store(occupancy.get(), std::memory_order_release);
     return *occupancy;
 }
 
@@ -165,14 +176,15 @@ void Map::Derived::removeFree(std::uint32_t i) {
 
 void Map::Derived::finish(const Map& map) {
     logTotal_ = std::log(map.model_.surfaces.totalSupport());
-    for (std::size_t level = 1; level < levels_.size(); ++level) levels_[level] = {};
+    for (std::size_t level = 1; level < levelCount_; ++level) levels_[level].clear();
 }
 
 std::size_t Map::Derived::liveBytes() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     std::size_t bytes = index_.liveBytes() + grid_.liveBytes() + clearance_.liveBytes() +
                         blocks_.liveBytes();
-    for (const Level& level : levels_) {
+    for (std::size_t l = 0; l < levelCount_; ++l) {
+        const Level& level = levels_[l];
         if (level.occupancy) bytes += level.occupancy->liveBytes();
         bytes += level.views.size() * 4 * sizeof(float) +
                  level.free.size() * sizeof(float) * (1 + 4 + Mixture<4>::packed);

@@ -45,12 +45,14 @@ class Map::Derived {
         Mixture<4> free;
         std::unique_ptr<OccupancyModel> occupancy;
         bool hasFeatures = false;  ///< views and free are there; upper levels only
+        std::atomic<const OccupancyModel*> ready{nullptr};  ///< occupancy, once it is there
+
+        void clear();
     };
 
     void prepare(const Map& map);
     void enterSurface(const Map& map, std::uint32_t i);
     Level& upperLevel(const Map& map, std::size_t level);
-    void ensureLevels(const Map& map) { levels_.resize(map.levelCount()); }
 
     std::atomic<bool> ready_{false};
     mutable std::mutex mutex_;
@@ -58,7 +60,8 @@ class Map::Derived {
     CoarseGrid grid_;
     Clearance clearance_;
     LevelBlocks blocks_;
-    std::vector<Level> levels_;
+    std::unique_ptr<Level[]> levels_;
+    std::size_t levelCount_ = 0;
     double logTotal_ = 0;
 };
 

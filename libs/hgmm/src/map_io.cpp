@@ -241,12 +241,20 @@ class ModelArchive {
         out.put(static_cast<std::uint8_t>(encoding));
         const std::vector<int> octaves = octavesOf(model.freeSpace);
         if (encoding == Encoding::compact) {
+            // Free components of surfaces keep the order of these.
+            const auto order = blockOrder(model.surfaces);
+            putSection(out, [&](auto& b) {
+                encodeSurfaces(model.surfaces, model.views, order, b);
+            });
+            const Mixture<4>& free = model.freeSpace.mixture();
             putSection(out,
-                       [&](auto& b) { encodeSurfaces(model.surfaces, model.views, b); });
-            putSection(out,
-                       [&](auto& b) { encodeFree(model.freeSpace.mixture(), octaves, b); });
-            const std::vector<int> none(model.freeOfSurfaces.size(), 0);
-            putSection(out, [&](auto& b) { encodeFree(model.freeOfSurfaces, none, b); });
+                       [&](auto& b) { encodeFree(free, octaves, blockOrder(free), b); });
+            const Mixture<4>& ofSurfaces = model.freeOfSurfaces;
+            const std::vector<int> none(ofSurfaces.size(), 0);
+            putSection(out, [&](auto& b) {
+                encodeFree(ofSurfaces, none,
+                           ofSurfaces.empty() ? blockOrder(ofSurfaces) : order, b);
+            });
             return;
         }
         putMixture(out, model.surfaces);

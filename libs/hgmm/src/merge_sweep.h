@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -38,16 +39,21 @@ class MergeSweep {
     bool absorbLater(std::size_t i);
     /// Later components than `after` that pass the bound against part i, in rising order.
     void findCandidates(const Part& part, std::size_t after);
-    bool passesBound(const Gaussian<D>& a, const Gaussian<D>& b) const;
+    bool passesBound(const Gaussian<D>& g, std::size_t place) const;
     bool similar(const Part& a, const Part& b) const;
+
+    static constexpr double kLeastVariance = 1e-12;  ///< factoring raises pivots to this
 
     double similarity_;
     double twiceSimilarity_;  ///< with a margin for rounding
+    double perTwiceSimilarity_;
     int axis_ = 0;
     double widest_ = 0;  ///< largest variance along the axis [m^2]
     std::vector<Part> parts_;
-    std::vector<std::pair<double, std::uint32_t>>
-        sorted_;  ///< position along the axis, index
+    /// What the bound needs of the parts as they were at first, sorted along the axis, so
+    /// that a search streams through it. Merged parts are only ever the one that searches.
+    std::array<std::vector<double>, D> means_, variances_;
+    std::vector<std::uint32_t> order_;  ///< part at each place
     std::vector<std::uint32_t> candidates_;
     std::vector<std::uint32_t> heirs_;
     std::vector<bool> merged_;
@@ -55,18 +61,27 @@ class MergeSweep {
 
 template <int D>
 MergeSweep<D>::MergeSweep(const Mixture<D>& mixture, double similarity)
-    : similarity_(similarity), twiceSimilarity_(2 * similarity * (1 + 1e-9)) {
+    : similarity_(similarity),
+      twiceSimilarity_(2 * similarity * (1 + 1e-9)),
+      perTwiceSimilarity_(1 / twiceSimilarity_) {
     if (mixture.empty()) return;
     axis_ = widestAxis(mixture);
     parts_.reserve(mixture.size());
-    sorted_.reserve(mixture.size());
     for (std::size_t i = 0; i < mixture.size(); ++i) {
         const Gaussian<D> g = mixture[i];
         parts_.push_back({g, WhitenedGaussian<D>(g)});
-        sorted_.emplace_back(g.mean[axis_], static_cast<std::uint32_t>(i));
+        order_.push_back(static_cast<std::uint32_t>(i));
         widest_ = std::max(widest_, g.covariance(axis_, axis_));
     }
-    std::sort(sorted_.begin(), sorted_.end());
+    const std::vector<float>& along = mixture.mean[axis_];
+    std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return along[a] != along[b] ? along[a] < along[b] : a < b;
+    });
+    for (const std::uint32_t i : order_)
+        for (int d = 0; d < D; ++d) {
+            means_[d].push_back(parts_[i].gaussian.mean[d]);
+            variances_[d].push_back(parts_[i].gaussian.covariance(d, d) + kLeastVariance);
+        }
 }
 
 template <int D>
@@ -107,28 +122,32 @@ template <int D>
 void MergeSweep<D>::findCandidates(const Part& part, std::size_t after) {
     candidates_.clear();
     const Gaussian<D>& g = part.gaussian;
-    const double reach = std::sqrt(twiceSimilarity_ *
-                                   (std::max(widest_, g.covariance(axis_, axis_)) + 1e-12));
-    auto entry = std::lower_bound(sorted_.begin(), sorted_.end(),
-                                  std::make_pair(g.mean[axis_] - reach, std::uint32_t{0}));
-    for (; entry != sorted_.end() && entry->first <= g.mean[axis_] + reach; ++entry) {
-        const std::uint32_t j = entry->second;
-        if (j <= after || parts_[j].absorbed) continue;
-        const Gaussian<D>& other = parts_[j].gaussian;
-        if (passesBound(g, other) || passesBound(other, g)) candidates_.push_back(j);
+    const double middle = g.mean[axis_];
+    const double reach =
+        std::sqrt(twiceSimilarity_ *
+                  (std::max(widest_, g.covariance(axis_, axis_)) + kLeastVariance));
+    const std::vector<double>& along = means_[axis_];
+    auto place = static_cast<std::size_t>(
+        std::lower_bound(along.begin(), along.end(), middle - reach) - along.begin());
+    for (; place < along.size() && along[place] <= middle + reach; ++place) {
+        if (!passesBound(g, place)) continue;
+        const std::uint32_t j = order_[place];
+        if (j > after && !parts_[j].absorbed) candidates_.push_back(j);
     }
     std::sort(candidates_.begin(), candidates_.end());
 }
 
+/// Whether g and the part at `place` may be similar, either way round.
 template <int D>
-bool MergeSweep<D>::passesBound(const Gaussian<D>& a, const Gaussian<D>& b) const {
+bool MergeSweep<D>::passesBound(const Gaussian<D>& g, std::size_t place) const {
+    bool oneWay = true, otherWay = true;
     for (int axis = 0; axis < D; ++axis) {
-        const double gap = a.mean[axis] - b.mean[axis];
-        const double variance =
-            b.covariance(axis, axis) + 1e-12;  // factoring raises pivots
-        if (gap * gap > twiceSimilarity_ * variance) return false;
+        const double gap = g.mean[axis] - means_[axis][place];
+        const double bounded = gap * gap * perTwiceSimilarity_;
+        oneWay &= bounded <= variances_[axis][place];
+        otherWay &= bounded <= g.covariance(axis, axis) + kLeastVariance;
     }
-    return true;
+    return oneWay || otherWay;
 }
 
 template <int D>

@@ -11,6 +11,19 @@ constexpr double kFirstChunk_m = 8.0;
 constexpr double kUnknownStep_m = 0.1;
 constexpr double kSigmas = 4.0;
 constexpr int kBisections = 20;
+constexpr double kStepsPerSigma = 4.0;
+
+/// Where a ray that enters an occupied stretch at `entry_m` meets the surface: P(occ) rises
+/// some sigma before it, so the component's densest point along the ray is taken, if that
+/// comes later and is occupied.
+template <typename Interval, typename Occupied>
+double surfaceBehind(const Interval& interval, double from_m, double entry_m,
+                     Occupied&& occupied) {
+    const double halfLength = kSigmas * kStepsPerSigma * interval.step_m;
+    const double peak = interval.start_m > from_m ? interval.start_m + halfLength
+                                                  : interval.end_m - halfLength;
+    return peak > entry_m && occupied(peak) ? peak : entry_m;
+}
 
 }  // namespace
 
@@ -40,7 +53,8 @@ std::vector<OccupancyModel::Interval> OccupancyModel::intervals(
         const double nearest = -od / dd, sigma = 1 / std::sqrt(dd);
         if (oo - od * od / dd > kSigmas * kSigmas) continue;
         found.push_back({std::max(from_m, nearest - kSigmas * sigma),
-                         std::min(to_m, nearest + kSigmas * sigma), sigma / 4});
+                         std::min(to_m, nearest + kSigmas * sigma),
+                         sigma / kStepsPerSigma});
     }
     std::sort(found.begin(), found.end(), [](const Interval& a, const Interval& b) {
         return a.start_m != b.start_m ? a.start_m < b.start_m : a.step_m < b.step_m;
@@ -78,7 +92,9 @@ std::optional<RayHit> OccupancyModel::castRay(const Eigen::Vector3d& origin,
                                                                                   : above) =
                         middle;
                 }
-                best = above;
+                best = surfaceBehind(interval, from, above, [&](double range) {
+                    return occupiedAt(origin + range * direction) >= params.minOccupied;
+                });
                 break;
             }
         }

@@ -36,6 +36,28 @@ std::vector<Blob> blobsOf(const Mixture<D>& mixture) {
     return blobs;
 }
 
+/// Where the surface components of a level say that there is free space before them (thesis
+/// 4.1): from a component to the end of its band, as wide as the component. The thesis' own
+/// model has no bands.
+std::vector<Blob> bandsOf(const Map& map, std::size_t level) {
+    const OccupancyParams& params = map.params().occupancy;
+    if (params.freeSpace.freeSpaceModel != static_cast<int>(FreeSpaceModel::slabs))
+        return {};
+    const Mixture<3>& surface = map.mixture(level);
+    const Views& views = map.views(level);
+    std::vector<Blob> bands;
+    for (std::size_t i = 0; i < surface.size(); ++i) {
+        const View view = views[i];
+        if (!view.known()) continue;
+        // A quarter of the reach: within kSigmas lies all of the band that is beside the
+        // component by less than sqrt(kSigmas^2 - 2^2) sigma.
+        const Eigen::Vector3d half = 0.5 * params.band.reach(view.range_m) * view.direction;
+        const Gaussian<3> g = surface[i];
+        bands.push_back({g.mean + half, g.covariance + 0.25 * half * half.transpose()});
+    }
+    return bands;
+}
+
 /// Cubes in the local frame; cell (0, 0, 0) is the one nearest to its origin.
 struct Lattice {
     double edge_m;
@@ -248,8 +270,12 @@ VoxelGrid voxelise(const Map& map, const VoxelParams& params) {
     params.validate();
     const std::vector<Blob> surface = blobsOf(map.mixture(params.level));
     if (surface.empty()) return {};
-    const std::vector<Blob> freeSpace =
-        params.free ? blobsOf(map.freeMixture(params.level)) : std::vector<Blob>();
+    std::vector<Blob> freeSpace;
+    if (params.free) {
+        freeSpace = blobsOf(map.freeMixture(params.level));
+        const std::vector<Blob> bands = bandsOf(map, params.level);
+        freeSpace.insert(freeSpace.end(), bands.begin(), bands.end());
+    }
     Region region = regionOf(map, params, surface, freeSpace);
 
     const std::vector<Cell> cells = region.cells.enumerate();

@@ -76,10 +76,17 @@ class BoxIndex {
     /// nothing is indexed there.
     static std::int32_t cellOf(float v, float perCell) {
         constexpr float limit = 1 << 30;
-        const float cell = std::floor(v * perCell);
-        return cell > -limit && cell < limit ? static_cast<std::int32_t>(cell) : 1 << 30;
+        const float cell = v * perCell;
+        if (!(cell > -limit && cell < limit)) return 1 << 30;
+        // std::floor is a call on processors that cannot be taken for granted.
+        const auto towardsZero = static_cast<std::int32_t>(cell);
+        return towardsZero - (cell < static_cast<float>(towardsZero) ? 1 : 0);
     }
-    static float perCell(int octave) { return std::ldexp(1.F, -octave); }
+    /// 2^-octave.
+    static float perCell(int octave) {
+        return octave > 0 ? 1.F / static_cast<float>(std::uint32_t{1} << unsigned(octave))
+                          : static_cast<float>(std::uint32_t{1} << unsigned(-octave));
+    }
 
     static Placement placementOf(const Box& box);
     template <typename Visitor>

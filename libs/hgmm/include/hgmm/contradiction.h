@@ -13,7 +13,7 @@ struct ContradictionParams {
     /// Share of its support that a component keeps each time a scan saw through it [1], in
     /// (0, 1]; 1 = surfaces stay for ever.
     double contradictedKeep = 0.25;
-    /// A component with less support is dropped [count], >= 0.
+    /// A component with less support is dropped, new ones included [count], >= 0.
     double minSupport = 0.5;
 
     /// Throws std::invalid_argument naming the field.

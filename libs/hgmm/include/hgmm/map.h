@@ -31,7 +31,7 @@ struct InsertReport {
 /// How Map::save writes components.
 enum class Encoding : std::uint8_t {
     exact,   ///< every bit: copies go on as the original would
-    compact  ///< a quarter of the size, errors well below a component's own size
+    compact  ///< less than half the size, errors well below a component's own size
 };
 
 /// A buffer that Map::load cannot use: truncated, corrupt, foreign, or of a newer version.
@@ -99,8 +99,8 @@ class Map {
     /// Gradient of Occupancy::occupied [1/m]; zero where nothing was seen.
     Eigen::Vector3d occupancyGradient(const Eigen::Vector3d& point_map,
                                       std::size_t level = 0) const;
-    /// Follows a ray to the first point whose P(occ) reaches params.minOccupied; nothing if
-    /// there is none. `direction_map` need not be of unit length. Throws
+    /// Follows a ray to the first surface whose P(occ) reaches params.minOccupied (RayHit);
+    /// nothing if there is none. `direction_map` need not be of unit length. Throws
     /// std::invalid_argument for a direction that is zero or not finite, or params out of
     /// range.
     std::optional<RayHit> castRay(const Eigen::Vector3d& origin_map,

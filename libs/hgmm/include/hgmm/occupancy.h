@@ -21,7 +21,8 @@ struct Occupancy {
     float probability() const { return occupied + 0.5F * unknown; }
 };
 
-/// The first occupied point along a ray.
+/// Where a ray meets the first surface: behind the first point whose P(occ) is high enough,
+/// the densest point of the component that made it so.
 struct RayHit {
     double range_m = 0.0;                                 ///< from the ray's origin [m]
     Eigen::Vector3d point_map = Eigen::Vector3d::Zero();  ///< [m]

@@ -20,7 +20,7 @@ struct LevelFigures {
     std::size_t level = 0;
     std::size_t components = 0;      ///< of the surface
     std::size_t componentsFree = 0;  ///< of free space
-    std::size_t bytes = 0;           ///< parameters alone (levelBytes)
+    std::size_t bytes = 0;           ///< components alone, saved compactly (levelBytes)
     double klToLevel0 = 0.0;  ///< KL(level 0 || this level) of the surface [nat], 0 for 0
     std::optional<double> aucUniform, aucNear;  ///< [0, 1]; none without test points
 };
@@ -50,6 +50,7 @@ struct Run {
     std::size_t queriesPerScan = 0;
     NearBand nearBand;
     FreeBand freeBand;
+    double rangeNoise_m = 0.0;  ///< added to mapping scans, one sigma [m]
     int threads = 1;
     bool interrupted = false;
 };

@@ -14,15 +14,12 @@ struct Memory {
 
 Memory memoryOf(const Map& map);
 
-/// Bytes of a mixture's parameters: the floats that describe it, without any index.
-template <int D>
-std::size_t parameterBytes(const Mixture<D>& mixture) {
-    constexpr std::size_t floatsPerComponent = 1 + D + Mixture<D>::packed;
-    return mixture.size() * floatsPerComponent * sizeof(float);
-}
+/// Bytes of a component, with its view, in a map that is saved compactly (Map::save).
+constexpr std::size_t kSurfaceBytes = 20, kFreeBytes = 23;
 
-/// Bytes of the mixtures, surface and free space, that answer queries at one level. Throws
-/// std::out_of_range for a level that does not exist.
+/// Bytes of the components, surface and free space, that answer queries at one level, as
+/// Map::save would write them: what a map of this level alone would take but for its
+/// parameters. Throws std::out_of_range for a level that does not exist.
 std::size_t levelBytes(const Map& map, std::size_t level);
 
 }  // namespace hgmm::evaluation

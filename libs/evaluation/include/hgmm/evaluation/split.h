@@ -32,7 +32,9 @@ enum class Draw : std::uint64_t {
     queries = 3,
     reference = 4,
     uniformFree = 5,
-    nearFree = 6
+    nearFree = 6,
+    rangeNoise = 7,
+    room = 8
 };
 
 /// The random numbers of one use in one scan.
