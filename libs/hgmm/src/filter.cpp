@@ -103,11 +103,14 @@ constexpr unsigned kIndexBits = 19;
 
 std::uint64_t leafKey(int octave, float x, float y, float z) {
     const float perLeaf = powerOfTwo(-octave);
-    // Above zero, conversion rounds down; std::floor would be a call.
-    constexpr double middle = 1U << (kIndexBits - 1);
+    constexpr std::uint64_t mask = (1U << kIndexBits) - 1U;
     const auto index = [&](float v) {
-        return static_cast<std::uint64_t>(
-            static_cast<std::int64_t>(double(v * perLeaf) + middle));
+        // std::floor is a call on processors that cannot be taken for granted.
+        const float leaves = v * perLeaf;
+        const auto towardsZero = static_cast<std::int32_t>(leaves);
+        const std::int32_t floor =
+            towardsZero - (leaves < static_cast<float>(towardsZero) ? 1 : 0);
+        return static_cast<std::uint64_t>(floor) & mask;
     };
     return static_cast<std::uint64_t>(octave + 32) << (3 * kIndexBits) |
            index(x) << (2 * kIndexBits) | index(y) << kIndexBits | index(z);
