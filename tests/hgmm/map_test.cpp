@@ -31,6 +31,7 @@ TEST(Map, ModelsTheRoom) {
     EXPECT_NEAR(map.mixture().totalSupport(), points, 1e-3 * points);
     MapParams trusting;
     trusting.contradiction.contradictedKeep = 1.0;
+    trusting.contradiction.minSupport = 0;
     EXPECT_NEAR(roomMap(6, trusting).mixture().totalSupport(), points, 0.5);
     const RoomScanner room;
     // Points on the walls are likely, points 20 cm off them are not.
