@@ -22,6 +22,11 @@ hgmm-replay "$data/tests_rgbd.rawlog" --holdout-points 0.2 --quiet \
     --report "$out/rgbd" --save-map "$out/rgbd.hgmm"
 hgmm-map export "$out/rgbd.hgmm" --format png --yaw 0 --pitch 15 -o "$out/rgbd.png"
 
+section "What that map says: along the optical axis, before, near and behind what was seen"
+hgmm-map raycast "$out/rgbd.hgmm" --from 0,0,0 --to-direction 1,0,0
+hgmm-map query "$out/rgbd.hgmm" 0.8,0,0 1.5,0,0 3.5,0,0
+hgmm-map export "$out/rgbd.hgmm" "$out/slice.yaml" --height 0 --resolution 0.02
+
 section "A 2D laser loop, 225 scans on odometry alone, every fifth held out"
 hgmm-replay "$data/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog" --split 5 --quiet \
     --report "$out/laser" --save-map "$out/laser.hgmm"
