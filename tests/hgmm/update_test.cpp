@@ -68,8 +68,7 @@ TEST(Update, IsEquations319To322) {
             S_Sigma[j] += share * (z.covariance + z.mean * z.mean.transpose());
         }
     }
-    const auto changed =
-        updateKnown(f.mixture, f.index, f.samples, f.split).changed;
+    const auto changed = updateKnown(f.mixture, f.index, f.samples, f.split).changed;
     ASSERT_EQ(changed, (std::vector<std::uint32_t>{0, 1}));
     f.mixture.check();
     for (int j = 0; j < 2; ++j) {
