@@ -13,6 +13,13 @@ function(hgmm_target TARGET)
     endif()
 endfunction()
 
+# Precompiles the headers of others that most files of a target include: half of its build time.
+function(hgmm_precompile TARGET)
+    target_precompile_headers(${TARGET} PRIVATE
+        <Eigen/Dense> <algorithm> <cmath> <functional> <memory> <string> <unordered_map> <vector>
+        ${ARGN})
+endfunction()
+
 # Headers of a library: from its folder when built here, from the prefix when installed.
 function(hgmm_library_includes TARGET)
     target_include_directories(${TARGET} PUBLIC
@@ -24,12 +31,13 @@ function(hgmm_library_includes TARGET)
 endfunction()
 
 # A GoogleTest program, each of its cases a ctest case.
-# hgmm_test(NAME SOURCES a.cpp ... LIBRARIES lib ... [LABELS ...])
+# hgmm_test(NAME SOURCES a.cpp ... LIBRARIES lib ... [LABELS ...] [PRECOMPILE <header> ...])
 function(hgmm_test NAME)
-    cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+    cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS;PRECOMPILE" ${ARGN})
     add_executable(${NAME} ${ARG_SOURCES})
     hgmm_target(${NAME})
     target_link_libraries(${NAME} PRIVATE ${ARG_LIBRARIES} GTest::gtest GTest::gtest_main)
+    hgmm_precompile(${NAME} <gtest/gtest.h> <filesystem> <fstream> <sstream> ${ARG_PRECOMPILE})
     set_target_properties(${NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
     gtest_discover_tests(${NAME} DISCOVERY_MODE PRE_TEST
         PROPERTIES LABELS "${ARG_LABELS}" SKIP_REGULAR_EXPRESSION "SKIPPED")
