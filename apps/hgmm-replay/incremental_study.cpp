@@ -13,6 +13,7 @@
 #include "hgmm/evaluation/metrics_json.h"
 #include "hgmm/evaluation/range_noise.h"
 #include "hgmm/filter.h"
+#include "hgmm/gaps.h"
 #include "hgmm/gaussian.h"
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
 #include "interrupt.h"
@@ -51,7 +52,9 @@ SamplePool poolSamples(Recording& recording, const hgmm::Map& map, const Options
                           recorded->index);
         const hgmm::Pose T_local_sensor{mapping.T_map_sensor.R,
                                         mapping.T_map_sensor.t - map.origin()};
-        pool.add(hgmm::transformed(hgmm::filterScan(mapping, filter), T_local_sensor));
+        hgmm::Mixture<3> samples_sensor = hgmm::filterScan(mapping, filter);
+        hgmm::bridgeGaps(samples_sensor, map.params().cells);
+        pool.add(hgmm::transformed(samples_sensor, T_local_sensor));
     }
     return pool;
 }

@@ -10,7 +10,7 @@ TEST_F(ReplayRegression, IsListed) {
 }
 
 TEST_F(ReplayRegression, VarianceAndEntropyConvergeForTheDefaultSeed) {
-    const Outcome outcome = replay("--study fig4.5 --out " + path("report"));
+    const Outcome outcome = replay("--study fig4.5 --report " + path("report"));
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     expectHas(outcome.out, "thesis: 14");
     const auto json = metrics("report");

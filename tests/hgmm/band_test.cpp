@@ -119,7 +119,8 @@ TEST(Band, GrowsWithRange) {
     EXPECT_NEAR(band.width(100) - band.width(0), 100 * band.bandPerRange, 1e-12);
     EXPECT_EQ(band.reach(0), band.width(0));  // never less than the width
     EXPECT_EQ(band.reach(100), 100 * band.bandReachPerRange);
-    EXPECT_NEAR(band.freePerMetre(7) * band.width(7), 1.0, 1e-12);  // as many as hits
+    band.freeShare = 0.5;  // as many as hits
+    EXPECT_NEAR(band.freePerMetre(7) * band.width(7), 1.0, 1e-12);
     band.freeShare = 0.75;
     EXPECT_NEAR(band.freePerMetre(7) * band.width(7), 3.0, 1e-12);
 }

@@ -90,6 +90,10 @@ void BoxIndex::remove(std::uint64_t key, std::uint32_t i) {
 void BoxIndex::update(std::uint32_t i, const Box& box) {
     if (i > size()) throw std::out_of_range("BoxIndex::update: a gap before it");
     const Placement placement = placementOf(box);
+    for (int d = 0; d < 3; ++d) {
+        low_[d] = std::min(low_[d], box.centre[d] - box.halfExtent[d]);
+        high_[d] = std::max(high_[d], box.centre[d] + box.halfExtent[d]);
+    }
     if (i == size()) {
         placements_.push_back(placement);
     } else {
@@ -116,6 +120,21 @@ void BoxIndex::removeSwap(std::uint32_t i) {
         placements_[i] = placements_[last];
     }
     placements_.pop_back();
+}
+
+std::pair<double, double> BoxIndex::spanAlong(const double* start,
+                                              const double* direction) const {
+    double first = -std::numeric_limits<double>::infinity(), last = -first;
+    for (int d = 0; d < 3; ++d) {
+        const double low = double(low_[d]) - start[d], high = double(high_[d]) - start[d];
+        if (direction[d] == 0) {
+            if (low > 0 || high < 0) return {1.0, 0.0};
+            continue;
+        }
+        first = std::max(first, std::min(low / direction[d], high / direction[d]));
+        last = std::min(last, std::max(low / direction[d], high / direction[d]));
+    }
+    return {first, last};
 }
 
 void BoxIndex::clear() {

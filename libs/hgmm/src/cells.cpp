@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "hgmm/component_index.h"
+#include "hgmm/lattice.h"
 #include "hgmm/require.h"
 
 namespace hgmm {
@@ -19,50 +20,25 @@ constexpr int kMaxPromotions = 2;
 /// touching cell of evenly spread samples lies at 3 sqrt(3) = 5.2.
 constexpr float kNeighbourSigmas = 6.F;
 
-struct CellId {
-    std::int32_t octave = 0;
-    std::int64_t x = 0, y = 0, z = 0;
-    bool operator==(const CellId& o) const {
-        return octave == o.octave && x == o.x && y == o.y && z == o.z;
-    }
-};
-
-struct CellHash {
-    std::size_t operator()(const CellId& c) const {
-        std::uint64_t h = static_cast<std::uint64_t>(c.octave + 64);
-        for (const std::int64_t v : {c.x, c.y, c.z})
-            h = (h ^ static_cast<std::uint64_t>(v)) * 0x9E3779B97F4A7C15ULL, h ^= h >> 29U;
-        return static_cast<std::size_t>(h);
-    }
-};
-
-CellId cellAt(const Eigen::Vector3d& p, int octave) {
-    const auto cell = [octave](double v) {
-        return static_cast<std::int64_t>(std::floor(std::ldexp(v, -octave)));
-    };
-    return {octave, cell(p.x()), cell(p.y()), cell(p.z())};
-}
-
 /// The cell of each sample: as small as the sample's range says, but with `minSamples` in
 /// it where `kMaxPromotions` doublings can reach them.
-std::vector<CellId> assignCells(const Mixture<3>& samples,
-                                const Eigen::Vector3d& sensorOrigin,
-                                const CellParams& params) {
-    std::vector<CellId> cells(samples.size());
-    std::unordered_map<CellId, int, CellHash> count;
+std::vector<LatticeCell> assignCells(const Mixture<3>& samples,
+                                     const Eigen::Vector3d& sensorOrigin,
+                                     const CellParams& params) {
+    std::vector<LatticeCell> cells(samples.size());
+    std::unordered_map<LatticeCell, int, LatticeCellHash> count;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const Eigen::Vector3d p = samples[i].mean;
         const double edge =
             std::max(params.minCell_m,
                      params.cellAtOneMetre_m * std::sqrt((p - sensorOrigin).norm()));
-        cells[i] = cellAt(p, std::ilogb(edge));
+        cells[i] = LatticeCell::at(p, std::ilogb(edge));
         ++count[cells[i]];
     }
     for (int promotion = 0; promotion < kMaxPromotions; ++promotion) {
-        std::unordered_map<CellId, int, CellHash> next;
+        std::unordered_map<LatticeCell, int, LatticeCellHash> next;
         for (std::size_t i = 0; i < samples.size(); ++i) {
-            if (count[cells[i]] < params.minSamples)
-                cells[i] = cellAt(samples[i].mean, cells[i].octave + 1);
+            if (count[cells[i]] < params.minSamples) cells[i] = cells[i].parent();
             ++next[cells[i]];
         }
         count = std::move(next);
@@ -103,8 +79,8 @@ void CellParams::validate() const {
 InitialMixture initialiseFromCells(const Mixture<3>& samples,
                                    const Eigen::Vector3d& sensorOrigin,
                                    const CellParams& params) {
-    const std::vector<CellId> cells = assignCells(samples, sensorOrigin, params);
-    std::unordered_map<CellId, std::uint32_t, CellHash> componentOf;
+    const std::vector<LatticeCell> cells = assignCells(samples, sensorOrigin, params);
+    std::unordered_map<LatticeCell, std::uint32_t, LatticeCellHash> componentOf;
     std::vector<std::uint32_t> own(samples.size());
     std::vector<Gaussian<3>> components;
     for (std::size_t i = 0; i < samples.size(); ++i) {

@@ -4,14 +4,6 @@
 
 namespace hgmm {
 
-LatticeCell LatticeCell::at(const Eigen::Vector3d& p, int octave) {
-    const double perCell = std::ldexp(1.0, -octave);
-    const auto cell = [perCell](double v) {
-        return static_cast<std::int32_t>(std::clamp(std::floor(v * perCell), -1e9, 1e9));
-    };
-    return {octave, cell(p.x()), cell(p.y()), cell(p.z())};
-}
-
 void Clearance::count(const LatticeCell& cell, int change) {
     const auto entry = components_.try_emplace(cell, 0U).first;
     entry->second += static_cast<std::uint32_t>(change);

@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <numeric>
-#include <stdexcept>
 
+#include "byte_stream.h"
 #include "hgmm/conditional.h"
 #include "storable.h"
 
@@ -42,38 +41,6 @@ constexpr LogScale kSupport{1e-6, 1e12, 65536};
 constexpr LogScale kRange{0.05, 1e4, 255};
 constexpr LogScale kDistance{1e-3, 1e4, 256};
 
-class Out {
- public:
-    explicit Out(std::vector<std::uint8_t>& bytes) : bytes_(bytes) {}
-    template <typename T>
-    void put(T value) {
-        const auto* p = reinterpret_cast<const std::uint8_t*>(&value);
-        bytes_.insert(bytes_.end(), p, p + sizeof(T));
-    }
-
- private:
-    std::vector<std::uint8_t>& bytes_;
-};
-
-class In {
- public:
-    In(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
-    template <typename T>
-    T get() {
-        if (size_ - read_ < sizeof(T))
-            throw std::out_of_range("saved map: it ends too early");
-        T value{};
-        std::memcpy(&value, data_ + read_, sizeof(T));
-        read_ += sizeof(T);
-        return value;
-    }
-    std::size_t read() const { return read_; }
-
- private:
-    const std::uint8_t* data_;
-    std::size_t size_, read_ = 0;
-};
-
 using Block = std::array<std::int32_t, 3>;
 
 Block blockOf(const Eigen::Vector3d& p) {
@@ -83,7 +50,7 @@ Block blockOf(const Eigen::Vector3d& p) {
     return b;
 }
 
-void putPlace(Out& out, const Block& block, const Eigen::Vector3d& mean,
+void putPlace(Writer& out, const Block& block, const Eigen::Vector3d& mean,
               const Eigen::Matrix3d& covariance, double support) {
     for (int d = 0; d < 3; ++d) {
         const double inside = mean[d] / kBlock_m - block[d];
@@ -114,7 +81,7 @@ void putPlace(Out& out, const Block& block, const Eigen::Vector3d& mean,
     out.put(static_cast<std::uint16_t>(kSupport.encode(support)));
 }
 
-void getPlace(In& in, const Block& block, Gaussian<3>& g) {
+void getPlace(Reader& in, const Block& block, Gaussian<3>& g) {
     for (int d = 0; d < 3; ++d)
         g.mean[d] = (block[d] + (in.get<std::uint16_t>() + 0.5) / 65536) * kBlock_m;
     Eigen::Matrix3d L = Eigen::Matrix3d::Zero();
@@ -127,7 +94,7 @@ void getPlace(In& in, const Block& block, Gaussian<3>& g) {
 }
 
 /// Unit vectors on the faces of an octahedron, unfolded to a square [-1, 1]^2.
-void putDirection(Out& out, const Eigen::Vector3d& u) {
+void putDirection(Writer& out, const Eigen::Vector3d& u) {
     const double sum = u.cwiseAbs().sum();
     double a = u.x() / sum, b = u.y() / sum;
     if (u.z() < 0) {
@@ -139,7 +106,7 @@ void putDirection(Out& out, const Eigen::Vector3d& u) {
         out.put(static_cast<std::int8_t>(std::lround(std::clamp(v, -1.0, 1.0) * 127)));
 }
 
-Eigen::Vector3d getDirection(In& in) {
+Eigen::Vector3d getDirection(Reader& in) {
     double a = in.get<std::int8_t>() / 127.0, b = in.get<std::int8_t>() / 127.0;
     const double z = 1 - std::abs(a) - std::abs(b);
     if (z < 0) {
@@ -171,7 +138,7 @@ void forEachBlock(const Mixture<D>& mixture, const std::vector<std::uint32_t>& o
         if (runs.empty() || runs.back().block != block) runs.push_back({block, 0});
         ++runs.back().members;
     }
-    Out out(bytes);
+    Writer out(bytes);
     out.put(static_cast<std::uint32_t>(runs.size()));
     auto next = order.begin();
     for (const Run& run : runs) {
@@ -182,7 +149,7 @@ void forEachBlock(const Mixture<D>& mixture, const std::vector<std::uint32_t>& o
 }
 
 template <typename Record>
-void readBlocks(In& in, Record&& record) {
+void readBlocks(Reader& in, Record&& record) {
     const auto blocks = in.get<std::uint32_t>();
     for (std::uint32_t b = 0; b < blocks; ++b) {
         Block block;
@@ -207,14 +174,14 @@ struct Surface {
     View view;
 };
 
-void putRecord(Out& out, const Block& block, const Surface& surface) {
+void putRecord(Writer& out, const Block& block, const Surface& surface) {
     const auto& [g, view] = surface;
     putPlace(out, block, g.mean, g.covariance, g.support);
     putDirection(out, view.known() ? view.direction : Eigen::Vector3d::UnitZ());
     out.put(static_cast<std::uint8_t>(view.known() ? 1 + kRange.encode(view.range_m) : 0));
 }
 
-void getRecord(In& in, const Block& block, Surface& surface) {
+void getRecord(Reader& in, const Block& block, Surface& surface) {
     auto& [g, view] = surface;
     getPlace(in, block, g);
     g = asStored(g);
@@ -229,7 +196,7 @@ struct FreeComponent {
     int octave = 0;
 };
 
-void putRecord(Out& out, const Block& block, const FreeComponent& component) {
+void putRecord(Writer& out, const Block& block, const FreeComponent& component) {
     const auto& [g, octave] = component;
     const RegressedGaussian<4> w(g, 1.0);
     putPlace(out, block, g.mean.head<3>(), g.covariance.topLeftCorner<3, 3>(), g.support);
@@ -241,7 +208,7 @@ void putRecord(Out& out, const Block& block, const FreeComponent& component) {
     out.put(static_cast<std::uint8_t>(kDistance.encode(std::sqrt(w.variance()))));
 }
 
-void getRecord(In& in, const Block& block, FreeComponent& component) {
+void getRecord(Reader& in, const Block& block, FreeComponent& component) {
     Gaussian<3> place;
     getPlace(in, block, place);
     component.octave = in.get<std::int8_t>();
@@ -267,17 +234,17 @@ template <typename Component>
 void putStable(std::vector<std::uint8_t>& bytes, const Block& block, Component component) {
     constexpr int kFollow = 8, kGiveUp = 64;
     std::vector<std::uint8_t> record, again;
-    Out recordOut(record);
+    Writer recordOut(record);
     putRecord(recordOut, block, component);
     for (int round = 0; round < kGiveUp; ++round) {
-        In in(record.data(), record.size());
+        Reader in(record.data(), record.size());
         getRecord(in, block, component);
         if (round >= kFollow) {
             auto place = component.g.covariance.diagonal().template head<3>();
             place.array() += 1e-6 * place.sum();
         }
         again.clear();
-        Out out(again);
+        Writer out(again);
         putRecord(out, block, component);
         if (again == record) break;
         record.swap(again);
@@ -311,14 +278,14 @@ void encodeSurfaces(const Mixture<3>& mixture, const Views& views,
 
 std::size_t decodeSurfaces(const std::uint8_t* data, std::size_t size, Mixture<3>& mixture,
                            Views& views) {
-    In in(data, size);
+    Reader in(data, size);
     readBlocks(in, [&](const Block& block) {
         Surface surface;
         getRecord(in, block, surface);
         mixture.pushBack(surface.g);
         views.pushBack(surface.view);
     });
-    return in.read();
+    return size - in.left();
 }
 
 void encodeFree(const Mixture<4>& mixture, const std::vector<int>& octaves,
@@ -330,14 +297,14 @@ void encodeFree(const Mixture<4>& mixture, const std::vector<int>& octaves,
 
 std::size_t decodeFree(const std::uint8_t* data, std::size_t size, Mixture<4>& mixture,
                        std::vector<int>& octaves) {
-    In in(data, size);
+    Reader in(data, size);
     readBlocks(in, [&](const Block& block) {
         FreeComponent component;
         getRecord(in, block, component);
         mixture.pushBack(component.g);
         octaves.push_back(component.octave);
     });
-    return in.read();
+    return size - in.left();
 }
 
 }  // namespace hgmm

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "normal_mass.h"
 #include "storable.h"
 
 namespace hgmm {
@@ -15,14 +16,6 @@ constexpr double kNever = -std::numeric_limits<double>::infinity();
 constexpr double kLargestCoordinate = 1e100;
 constexpr double kSmallestWeight = 1e-12;
 constexpr double kSmallestVariance = 1e-12;
-
-/// P(low <= Z <= high) of a standard normal Z. Both ends are turned to the lower tail,
-/// where erfc keeps its digits.
-double normalMass(double low, double high) {
-    if (low > 0) return normalMass(-high, -low);
-    constexpr double kHalfRoot = 0.70710678118654752440;
-    return 0.5 * (std::erfc(-high * kHalfRoot) - std::erfc(-low * kHalfRoot));
-}
 
 double logNormal(double value, double mean, double variance) {
     const double d = value - mean;

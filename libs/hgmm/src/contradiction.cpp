@@ -73,25 +73,15 @@ bool isSeenThrough(const Gaussian<3>& component, const RangeImage& image,
     return passed >= 4;
 }
 
-std::int32_t CoarseGrid::coordinate(double v) {
-    return static_cast<std::int32_t>(std::clamp(std::floor(v / kCell_m), -1e6, 1e6));
-}
-
-std::uint64_t CoarseGrid::key(const Cell& cell) {
-    constexpr std::uint64_t mask = (1U << 21U) - 1U;
-    return (std::uint64_t(cell[0]) & mask) << 42U | (std::uint64_t(cell[1]) & mask) << 21U |
-           (std::uint64_t(cell[2]) & mask);
-}
-
 void CoarseGrid::leave(std::uint32_t i) {
-    const auto entry = members_.find(key(cellOf_[i]));
+    const auto entry = members_.find(cellOf_[i]);
     auto& members = entry->second;
     members.erase(std::find(members.begin(), members.end(), i));
     if (members.empty()) members_.erase(entry);
 }
 
 void CoarseGrid::update(std::uint32_t i, const Eigen::Vector3d& mean) {
-    const Cell cell = {coordinate(mean[0]), coordinate(mean[1]), coordinate(mean[2])};
+    const LatticeCell cell = LatticeCell::at(mean, kOctave);
     if (i == cellOf_.size()) {
         cellOf_.push_back(cell);
     } else {
@@ -99,14 +89,14 @@ void CoarseGrid::update(std::uint32_t i, const Eigen::Vector3d& mean) {
         leave(i);
         cellOf_[i] = cell;
     }
-    members_[key(cell)].push_back(i);
+    members_[cell].push_back(i);
 }
 
 void CoarseGrid::removeSwap(std::uint32_t i) {
     leave(i);
     const auto last = static_cast<std::uint32_t>(cellOf_.size() - 1);
     if (i != last) {
-        auto& members = members_[key(cellOf_[last])];
+        auto& members = members_[cellOf_[last]];
         *std::find(members.begin(), members.end(), last) = i;
         cellOf_[i] = cellOf_[last];
     }
@@ -116,25 +106,23 @@ void CoarseGrid::removeSwap(std::uint32_t i) {
 std::vector<std::uint32_t> CoarseGrid::within(const Eigen::Vector3d& low,
                                               const Eigen::Vector3d& high) const {
     std::vector<std::uint32_t> found;
-    const Cell a = {coordinate(low[0]), coordinate(low[1]), coordinate(low[2])};
-    const Cell b = {coordinate(high[0]), coordinate(high[1]), coordinate(high[2])};
+    const LatticeCell a = LatticeCell::at(low, kOctave), b = LatticeCell::at(high, kOctave);
     const auto take = [&](const std::vector<std::uint32_t>& members) {
         found.insert(found.end(), members.begin(), members.end());
     };
     const double cells =
-        (double(b[0]) - a[0] + 1) * (double(b[1]) - a[1] + 1) * (double(b[2]) - a[2] + 1);
+        (double(b.x) - a.x + 1) * (double(b.y) - a.y + 1) * (double(b.z) - a.z + 1);
     if (cells > double(members_.size())) {
-        for (const auto& entry : members_) {
-            const Cell& cell = cellOf_[entry.second.front()];
-            bool inside = true;
-            for (int d = 0; d < 3; ++d) inside &= cell[d] >= a[d] && cell[d] <= b[d];
-            if (inside) take(entry.second);
-        }
+        for (const auto& [c, members] : members_)
+            if (c.x >= a.x && c.x <= b.x && c.y >= a.y && c.y <= b.y && c.z >= a.z &&
+                c.z <= b.z)
+                take(members);
     } else {
-        for (std::int32_t x = a[0]; x <= b[0]; ++x)
-            for (std::int32_t y = a[1]; y <= b[1]; ++y)
-                for (std::int32_t z = a[2]; z <= b[2]; ++z) {
-                    const auto entry = members_.find(key({x, y, z}));
+        LatticeCell c = a;
+        for (c.x = a.x; c.x <= b.x; ++c.x)
+            for (c.y = a.y; c.y <= b.y; ++c.y)
+                for (c.z = a.z; c.z <= b.z; ++c.z) {
+                    const auto entry = members_.find(c);
                     if (entry != members_.end()) take(entry->second);
                 }
     }
@@ -144,7 +132,7 @@ std::vector<std::uint32_t> CoarseGrid::within(const Eigen::Vector3d& low,
 
 std::size_t CoarseGrid::liveBytes() const {
     std::size_t bytes =
-        cellOf_.capacity() * sizeof(Cell) + members_.bucket_count() * sizeof(void*);
+        cellOf_.capacity() * sizeof(LatticeCell) + members_.bucket_count() * sizeof(void*);
     for (const auto& entry : members_)
         bytes += sizeof(entry) + 2 * sizeof(void*) +
                  entry.second.capacity() * sizeof(std::uint32_t);

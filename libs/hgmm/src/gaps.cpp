@@ -5,6 +5,8 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "hgmm/lattice.h"
+
 namespace hgmm {
 
 namespace {
@@ -21,28 +23,6 @@ constexpr double kFlatness = 0.1;
 /// Two lines of samples at a distance g spread by g / 2, three by 0.8 g; Gaussians that
 /// meet spread by 0.29 g each.
 constexpr double kBridge = 0.5;
-
-using Cell = std::array<std::int32_t, 4>;  // octave, x, y, z
-
-struct CellHash {
-    std::size_t operator()(const Cell& c) const {
-        std::uint64_t h = 0;
-        for (const std::int32_t v : c)
-            h = (h ^ static_cast<std::uint32_t>(v)) * 0x9E3779B97F4A7C15ULL, h ^= h >> 29U;
-        return static_cast<std::size_t>(h);
-    }
-};
-
-Cell cellAt(const Eigen::Vector3d& p, int octave) {
-    Cell cell{octave, 0, 0, 0};
-    for (int d = 0; d < 3; ++d)
-        cell[d + 1] = static_cast<std::int32_t>(std::floor(std::ldexp(p[d], -octave)));
-    return cell;
-}
-
-Cell parentOf(const Cell& c) {
-    return {c[0] + 1, c[1] >> 1, c[2] >> 1, c[3] >> 1};
-}
 
 /// Scatter of the sample means in a cell.
 struct Content {
@@ -76,7 +56,7 @@ struct Content {
     }
 };
 
-using Contents = std::unordered_map<Cell, Content, CellHash>;
+using Contents = std::unordered_map<LatticeCell, Content, LatticeCellHash>;
 using Solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
 
 /// Covariance that bridges the gaps around the samples of `own`, given the plane in
@@ -112,29 +92,30 @@ Eigen::Matrix3d bridge(const Content& own, const Content& around) {
 
 void bridgeGaps(Mixture<3>& samples, const CellParams& params) {
     std::array<Contents, kGapDoublings + 1> contents;
-    std::vector<Cell> cells(samples.size());
+    std::vector<LatticeCell> cells(samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const Eigen::Vector3d p(samples.mean[0][i], samples.mean[1][i], samples.mean[2][i]);
         const double edge =
             std::max(params.minCell_m, params.cellAtOneMetre_m * std::sqrt(p.norm()));
-        cells[i] = cellAt(p, std::ilogb(edge));
+        cells[i] = LatticeCell::at(p, std::ilogb(edge));
         contents[0][cells[i]].add(p);
     }
-    std::unordered_map<Cell, Eigen::Matrix3d, CellHash> bridges;
+    std::unordered_map<LatticeCell, Eigen::Matrix3d, LatticeCellHash> bridges;
     for (const auto& [cell, own] : contents[0])
-        if (!own.spreadsTwice(kLeastSpread * std::ldexp(1.0, cell[0])))
+        if (!own.spreadsTwice(kLeastSpread * std::ldexp(1.0, cell.octave)))
             bridges.emplace(cell, Eigen::Matrix3d::Zero());
     if (bridges.empty()) return;
 
     for (int d = 1; d <= kGapDoublings; ++d)
         for (const auto& [cell, content] : contents[d - 1])
-            contents[d][parentOf(cell)].add(content);
+            contents[d][cell.parent()].add(content);
     for (auto& [cell, wider] : bridges) {
-        Cell around = cell;
+        LatticeCell around = cell;
         for (int d = 1; d <= kGapDoublings; ++d) {
-            around = parentOf(around);
+            around = around.parent();
             const Content& content = contents[d].at(around);
-            if (!content.spreadsTwice(kLeastSpread * std::ldexp(1.0, around[0]))) continue;
+            if (!content.spreadsTwice(kLeastSpread * std::ldexp(1.0, around.octave)))
+                continue;
             wider = bridge(contents[0].at(cell), content);
             break;
         }

@@ -4,6 +4,7 @@
 #include <string>
 #include <type_traits>
 
+#include "byte_stream.h"
 #include "component_codec.h"
 #include "hgmm/map.h"
 
@@ -49,52 +50,6 @@ std::uint64_t checksum(const std::uint8_t* data, std::size_t size) {
     mix(tail);
     return h;
 }
-
-class Writer {
- public:
-    template <typename T>
-    void put(const T& value) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        put(&value, 1);
-    }
-    template <typename T>
-    void put(const T* values, std::size_t n) {
-        const auto* bytes = reinterpret_cast<const std::uint8_t*>(values);
-        buffer.insert(buffer.end(), bytes, bytes + n * sizeof(T));
-    }
-    std::vector<std::uint8_t> buffer;
-};
-
-class Reader {
- public:
-    Reader(const std::uint8_t* data, std::size_t size) : data_(data), left_(size) {}
-
-    template <typename T>
-    T get() {
-        T value{};
-        get(&value, 1);
-        return value;
-    }
-    template <typename T>
-    void get(T* values, std::size_t n) {
-        if (n > left_ / sizeof(T)) throw FormatError("saved map: it ends too early");
-        if (n == 0) return;
-        std::memcpy(values, data_, n * sizeof(T));
-        data_ += n * sizeof(T);
-        left_ -= n * sizeof(T);
-    }
-    std::size_t left() const { return left_; }
-    const std::uint8_t* here() const { return data_; }
-    /// @param n at most left()
-    void skip(std::size_t n) {
-        data_ += n;
-        left_ -= n;
-    }
-
- private:
-    const std::uint8_t* data_;
-    std::size_t left_;
-};
 
 template <typename Mix, typename Visitor>
 void forEachArray(Mix& mixture, Visitor&& visit) {
@@ -163,24 +118,18 @@ Mixture<D> getMixture(Reader& in) {
 /// A compact section: its length, then what `encode` appends.
 template <typename Encode>
 void putSection(Writer& out, Encode&& encode) {
-    const std::size_t at = out.buffer.size();
-    out.put(std::uint64_t{0});
-    encode(out.buffer);
-    const std::uint64_t bytes = out.buffer.size() - at - sizeof(std::uint64_t);
-    std::memcpy(out.buffer.data() + at, &bytes, sizeof(bytes));
+    std::vector<std::uint8_t> section;
+    encode(section);
+    out.put(static_cast<std::uint64_t>(section.size()));
+    out.put(section.data(), section.size());
 }
 
 template <typename Decode>
 void getSection(Reader& in, Decode&& decode) {
     const auto bytes = in.get<std::uint64_t>();
     if (bytes > in.left()) throw FormatError("saved map: it ends too early");
-    std::size_t used = 0;
-    try {
-        used = decode(in.here(), static_cast<std::size_t>(bytes));
-    } catch (const std::out_of_range& e) {
-        throw FormatError(e.what());
-    }
-    if (used != bytes) throw FormatError("saved map: bytes are left over in a section");
+    if (decode(in.here(), static_cast<std::size_t>(bytes)) != bytes)
+        throw FormatError("saved map: bytes are left over in a section");
     in.skip(static_cast<std::size_t>(bytes));
 }
 
@@ -320,7 +269,8 @@ class ModelArchive {
 };
 
 std::vector<std::uint8_t> Map::save(Encoding encoding) const {
-    Writer out;
+    std::vector<std::uint8_t> buffer;
+    Writer out(buffer);
     out.put(kMagic, sizeof(kMagic));
     out.put(kVersion);
     out.put(std::uint64_t{0});
@@ -329,14 +279,14 @@ std::vector<std::uint8_t> Map::save(Encoding encoding) const {
     out.put(origin_.data(), 3);
     ModelArchive::put(out, model_, encoding);
 
-    const std::uint64_t size = out.buffer.size();
-    const std::uint64_t sum = checksum(out.buffer.data() + kHeader, size - kHeader);
-    std::memcpy(out.buffer.data() + 8, &size, sizeof(size));
-    std::memcpy(out.buffer.data() + 16, &sum, sizeof(sum));
-    return std::move(out.buffer);
+    const std::uint64_t size = buffer.size();
+    const std::uint64_t sum = checksum(buffer.data() + kHeader, size - kHeader);
+    std::memcpy(buffer.data() + 8, &size, sizeof(size));
+    std::memcpy(buffer.data() + 16, &sum, sizeof(sum));
+    return buffer;
 }
 
-Map Map::load(const std::uint8_t* data, std::size_t size) {
+Map Map::load(const std::uint8_t* data, std::size_t size) try {
     std::uint32_t version = 0;
     Reader in = openBuffer(data, size, version);
     Map map(getParams(in));
@@ -348,6 +298,8 @@ Map Map::load(const std::uint8_t* data, std::size_t size) {
         map.model_.freeOfSurfaces.size() != map.model_.surfaces.size())
         throw FormatError("saved map: free components are missing");
     return map;
+} catch (const std::out_of_range& e) {
+    throw FormatError(std::string("saved map: ") + e.what());
 }
 
 }  // namespace hgmm

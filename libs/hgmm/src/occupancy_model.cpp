@@ -5,16 +5,15 @@
 
 #include "dual.h"
 #include "hgmm/require.h"
+#include "normal_mass.h"
 
 namespace hgmm {
 
 namespace {
 
 constexpr double kSqrtTwoPi = 2.5066282746310002;
-constexpr double kSqrtHalf = 0.7071067811865476;
 
-/// Components are felt up to this distance.
-constexpr float kSigmas = 4.F;
+constexpr double kSigmas = OccupancyModel::kSigmas;
 const double kCutDensity = std::exp(-0.5 * kSigmas * kSigmas);
 
 /// Free points of the thesis' own model lie this far from the surface, and eq. (4.15)
@@ -25,15 +24,6 @@ constexpr double kThesisInterval_m = 2e-3;
 template <typename T>
 T square(const T& v) {
     return v * v;
-}
-
-/// Phi(b) - Phi(a) of the standard normal distribution.
-template <typename T>
-T normalMass(const T& a, const T& b) {
-    using std::erfc;
-    // The tail that both have in common would cancel: take the smaller one.
-    return valueOf(a) > 0 ? 0.5 * (erfc(kSqrtHalf * a) - erfc(kSqrtHalf * b))
-                          : 0.5 * (erfc(-kSqrtHalf * b) - erfc(-kSqrtHalf * a));
 }
 
 /// A relative density that reaches zero where the index ends, so that nothing jumps there.
@@ -54,7 +44,7 @@ BoxIndex::Box boxAround(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
 
 template <int D>
 Eigen::Vector3d ellipsoidExtent(const Gaussian<D>& g) {
-    return double(kSigmas) *
+    return kSigmas *
            Eigen::Vector3d(g.covariance.diagonal().template head<3>()).cwiseSqrt();
 }
 
@@ -106,10 +96,7 @@ void OccupancyModel::updateSurface(std::uint32_t i, const Gaussian<3>& surface,
     band.reach_m = static_cast<float>(params_.band.reach(view.range_m));
     band.freePerMetre = static_cast<float>(params_.band.freePerMetre(view.range_m));
 
-    if (i == bands_.size()) {
-        bands_.emplace_back();
-        surfaceJoints_.emplace_back();
-    }
+    if (i == bands_.size()) bands_.emplace_back();
     bands_.at(i) = band;
     const Eigen::Vector3d extent = ellipsoidExtent(surface);
     surfaceBoxes_.update(i, boxAround(surface.mean, surface.mean, extent));
@@ -120,6 +107,7 @@ void OccupancyModel::updateSurface(std::uint32_t i, const Gaussian<3>& surface,
     } else {
         const Gaussian<4> g =
             augmented(surface, view, kThesisFreePoint_m, params_.band.freeShare);
+        surfaceJoints_.resize(bands_.size());
         surfaceJoints_[i] = jointOf(g);
         bandBoxes_.update(i, boxAround(surface.mean, surface.mean, extent));
     }
@@ -130,6 +118,7 @@ void OccupancyModel::removeSurface(std::uint32_t i) {
     surfaceBoxes_.removeSwap(i);
     bands_[i] = bands_.back();
     bands_.pop_back();
+    if (surfaceJoints_.empty()) return;
     surfaceJoints_[i] = surfaceJoints_.back();
     surfaceJoints_.pop_back();
 }
@@ -270,10 +259,6 @@ Occupancy OccupancyModel::at(const Eigen::Vector3d& point) const {
     answer.variance_m2 = static_cast<float>(
         std::max(0.0, s.squaredDistance / total - mean * mean));  // thesis eq. (4.18)
     return answer;
-}
-
-double OccupancyModel::occupiedAt(const Eigen::Vector3d& point) const {
-    return at(point).occupied;
 }
 
 Eigen::Vector3d OccupancyModel::gradient(const Eigen::Vector3d& point) const {

@@ -9,21 +9,8 @@ namespace {
 
 constexpr double kFirstChunk_m = 8.0;
 constexpr double kUnknownStep_m = 0.1;
-constexpr double kSigmas = 4.0;
-constexpr int kBisections = 20;
 constexpr double kStepsPerSigma = 4.0;
-
-/// Where a ray that enters an occupied stretch at `entry_m` meets the surface: P(occ) rises
-/// some sigma before it, so the component's densest point along the ray is taken, if that
-/// comes later and is occupied.
-template <typename Interval, typename Occupied>
-double surfaceBehind(const Interval& interval, double from_m, double entry_m,
-                     Occupied&& occupied) {
-    const double halfLength = kSigmas * kStepsPerSigma * interval.step_m;
-    const double peak = interval.start_m > from_m ? interval.start_m + halfLength
-                                                  : interval.end_m - halfLength;
-    return peak > entry_m && occupied(peak) ? peak : entry_m;
-}
+constexpr double kPrecision_m = 1e-6;
 
 }  // namespace
 
@@ -53,11 +40,10 @@ std::vector<OccupancyModel::Interval> OccupancyModel::intervals(
         const double nearest = -od / dd, sigma = 1 / std::sqrt(dd);
         if (oo - od * od / dd > kSigmas * kSigmas) continue;
         found.push_back({std::max(from_m, nearest - kSigmas * sigma),
-                         std::min(to_m, nearest + kSigmas * sigma),
-                         sigma / kStepsPerSigma});
+                         std::min(to_m, nearest + kSigmas * sigma), nearest, sigma});
     }
     std::sort(found.begin(), found.end(), [](const Interval& a, const Interval& b) {
-        return a.start_m != b.start_m ? a.start_m < b.start_m : a.step_m < b.step_m;
+        return a.start_m != b.start_m ? a.start_m < b.start_m : a.sigma_m < b.sigma_m;
     });
     return found;
 }
@@ -69,37 +55,45 @@ bool OccupancyModel::crossesUnknown(const Eigen::Vector3d& origin,
     return false;
 }
 
+/// Where the ray meets the surface that makes it occupied within one interval. P(occ) rises
+/// some sigma before a surface, so it is the component's densest point along the ray, if
+/// that comes later than the first occupied point and is occupied.
+std::optional<double> OccupancyModel::firstOccupied(const Eigen::Vector3d& origin,
+                                                    const Eigen::Vector3d& direction,
+                                                    const Interval& interval,
+                                                    double minOccupied) const {
+    const auto isOccupied = [&](double range) {
+        return at(origin + range * direction).occupied >= minOccupied;
+    };
+    const double step = interval.sigma_m / kStepsPerSigma;
+    double above = interval.start_m;
+    while (above <= interval.end_m && !isOccupied(above)) above += step;
+    if (above > interval.end_m) return std::nullopt;
+    if (interval.peak_m > above && isOccupied(interval.peak_m)) return interval.peak_m;
+    double below = std::max(interval.start_m, above - step);
+    while (above - below > kPrecision_m) {
+        const double middle = (below + above) / 2;
+        (isOccupied(middle) ? above : below) = middle;
+    }
+    return above;
+}
+
 std::optional<RayHit> OccupancyModel::castRay(const Eigen::Vector3d& origin,
                                               const Eigen::Vector3d& direction,
                                               const RayCastParams& params) const {
+    const auto [first, last] = surfaceBoxes_.spanAlong(origin.data(), direction.data());
+    const double end = std::min(params.maxRange_m, last);
     double best = std::numeric_limits<double>::infinity();
-    double from = 0, length = kFirstChunk_m;
-    for (; from < params.maxRange_m && std::isinf(best); from += length, length *= 2) {
-        const double to = std::min(params.maxRange_m, from + length);
-        for (const Interval& interval : intervals(origin, direction, from, to)) {
+    double from = std::max(0.0, first), length = kFirstChunk_m;
+    for (; from < end && std::isinf(best); from += length, length *= 2)
+        for (const Interval& interval :
+             intervals(origin, direction, from, std::min(end, from + length))) {
             if (interval.start_m >= best) break;
-            double below = interval.start_m;
-            for (double r = interval.start_m; r <= std::min(interval.end_m, best);
-                 r += interval.step_m) {
-                if (occupiedAt(origin + r * direction) < params.minOccupied) {
-                    below = r;
-                    continue;
-                }
-                double above = r;
-                for (int b = 0; b < kBisections && above - below > 1e-6; ++b) {
-                    const double middle = (below + above) / 2;
-                    (occupiedAt(origin + middle * direction) < params.minOccupied ? below
-                                                                                  : above) =
-                        middle;
-                }
-                best = surfaceBehind(interval, from, above, [&](double range) {
-                    return occupiedAt(origin + range * direction) >= params.minOccupied;
-                });
-                break;
-            }
+            const auto range =
+                firstOccupied(origin, direction, interval, params.minOccupied);
+            if (range) best = std::min(best, *range);
         }
-    }
-    if (std::isinf(best)) return std::nullopt;
+    if (!(best <= params.maxRange_m)) return std::nullopt;
     if (params.stopAtUnknown && crossesUnknown(origin, direction, best))
         return std::nullopt;
     return RayHit{best, origin + best * direction};

@@ -2,32 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
-
-#include "hgmm/component_index.h"
 
 namespace mrpt::maps {
 
 namespace {
 
-/// The distance from a point beyond which the map holds nothing [m].
-double reachFrom(const Eigen::Vector3d& from_map, const ::hgmm::Map& map) {
-    const ::hgmm::Mixture<3>& surface = map.mixture();
-    double reach = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto& mean = surface.mean[axis];
-        const auto& variance = surface.covariance[::hgmm::packedIndex(3, axis, axis)];
-        const double from = from_map[axis] - map.origin()[axis];
-        double farthest = 0;
-        for (std::size_t i = 0; i < surface.size(); ++i)
-            farthest = std::max(
-                farthest, std::abs(mean[i] - from) +
-                              ::hgmm::ComponentIndex::kSigmas * std::sqrt(variance[i]));
-        reach = std::hypot(reach, farthest);
-    }
-    return reach;
-}
+constexpr double kNoLimit_m = 1e6;  // the farthest that hgmm::Map::castRay goes
 
 }  // namespace
 
@@ -54,9 +35,7 @@ bool CHGMMOccupancyMap::castRay(const mrpt::math::TPoint3D& origin,
     ::hgmm::RayCastParams params;
     params.minOccupied = renderOptions.minOccupied;
     params.stopAtUnknown = !ignoreUnknownCells;
-    // The map's own extent, where it ends sooner, so that no ray goes on for ever.
-    params.maxRange_m = std::max(reachFrom(from, model_), 1e-3);
-    if (maxRange > 0) params.maxRange_m = std::min(params.maxRange_m, maxRange);
+    params.maxRange_m = maxRange > 0 ? std::min(maxRange, kNoLimit_m) : kNoLimit_m;
     const auto hit = model_.castRay(from, along, params);
     if (hit) end = {hit->point_map.x(), hit->point_map.y(), hit->point_map.z()};
     return hit.has_value();

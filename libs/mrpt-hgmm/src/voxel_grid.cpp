@@ -8,7 +8,7 @@
 #include <string>
 
 #include "cell_set.h"
-#include "hgmm/component_index.h"
+#include "hgmm/occupancy_model.h"
 #include "hgmm/require.h"
 
 namespace hgmm::mrpt_bridge {
@@ -16,7 +16,7 @@ namespace hgmm::mrpt_bridge {
 namespace {
 
 /// Beyond, the map has no answer that depends on the component.
-constexpr double kSigmas = ComponentIndex::kSigmas;
+constexpr double kSigmas = OccupancyModel::kSigmas;
 
 /// Where a component lies in space, in the map's local frame.
 struct Blob {

@@ -14,7 +14,7 @@ namespace hgmm {
 struct BandParams {
     /// Share of free points within the band's width [1], in (0, 1). At 0.5 the probability
     /// of a point within the band is that of a hit against an equally likely free point.
-    double freeShare = 0.5;
+    double freeShare = 0.45;
     double bandBase_m = 0.5;          ///< width of the band at range 0 [m], > 0
     double bandPerRange = 0.015;      ///< its growth with range [m/m], >= 0
     double bandReachPerRange = 0.25;  ///< reach per range, at least the width [1], >= 0

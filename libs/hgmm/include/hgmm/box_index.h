@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <utility>
 #include <vector>
 
 namespace hgmm {
@@ -39,6 +41,10 @@ class BoxIndex {
     void visitAlongRay(const float* start, const float* direction, float length,
                        Visitor&& visit) const;
 
+    /// First and last distance at which the line from `start` along `direction` may meet a
+    /// box; the first is beyond the last if there is none.
+    std::pair<double, double> spanAlong(const double* start, const double* direction) const;
+
     /// Heap held [bytes].
     std::size_t liveBytes() const;
 
@@ -59,6 +65,7 @@ class BoxIndex {
         bool used = false;
     };
 
+    static constexpr float kFar = std::numeric_limits<float>::max();
     static constexpr int kMinOctave = -10, kMaxOctave = 20;
     static constexpr int kOctaves = kMaxOctave - kMinOctave + 1;
 
@@ -104,6 +111,8 @@ class BoxIndex {
     std::vector<std::uint32_t> pool_;
     std::array<std::vector<std::uint32_t>, 32> free_;  ///< begins of unused runs, by size
     std::array<std::uint32_t, kOctaves> boxesInOctave_{};
+    /// Around all boxes that were ever entered.
+    std::array<float, 3> low_{kFar, kFar, kFar}, high_{-kFar, -kFar, -kFar};
 };
 
 inline const BoxIndex::Slot* BoxIndex::find(std::uint64_t key) const {

@@ -1,9 +1,9 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
 
+#include "hgmm/lattice.h"
 #include "hgmm/mixture.h"
 
 namespace hgmm {
@@ -63,14 +63,11 @@ class CoarseGrid {
     std::size_t liveBytes() const;
 
  private:
-    static constexpr double kCell_m = 8.0;
-    using Cell = std::array<std::int32_t, 3>;
-    static std::int32_t coordinate(double v);
-    static std::uint64_t key(const Cell& cell);
+    static constexpr int kOctave = 3;  // 8 m
     void leave(std::uint32_t i);
 
-    std::vector<Cell> cellOf_;
-    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> members_;
+    std::vector<LatticeCell> cellOf_;
+    std::unordered_map<LatticeCell, std::vector<std::uint32_t>, LatticeCellHash> members_;
 };
 
 }  // namespace hgmm

@@ -45,6 +45,9 @@ struct OccupancyParams {
 /// threads at once.
 class OccupancyModel {
  public:
+    /// Components are felt up to this distance [sigma].
+    static constexpr double kSigmas = 4.0;
+
     /// Throws std::invalid_argument naming the field.
     explicit OccupancyModel(const OccupancyParams& params);
 
@@ -94,7 +97,8 @@ class OccupancyModel {
     };
     /// Where a ray is near one component, along the ray.
     struct Interval {
-        double start_m, end_m, step_m;
+        double start_m, end_m;  ///< within 4 sigma, and within the part that is looked at
+        double peak_m, sigma_m;
     };
 
     template <typename T>
@@ -106,7 +110,9 @@ class OccupancyModel {
     std::vector<Interval> intervals(const Eigen::Vector3d& origin,
                                     const Eigen::Vector3d& direction, double from_m,
                                     double to_m) const;
-    double occupiedAt(const Eigen::Vector3d& point) const;
+    std::optional<double> firstOccupied(const Eigen::Vector3d& origin,
+                                        const Eigen::Vector3d& direction,
+                                        const Interval& interval, double minOccupied) const;
     bool crossesUnknown(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                         double to_m) const;
 
@@ -117,7 +123,7 @@ class OccupancyModel {
     double unknownDensity_;  ///< k
     double sharpness_;       ///< of extents against thickness
     std::vector<Band> bands_;
-    std::vector<Joint> surfaceJoints_;  ///< of perComponent only
+    std::vector<Joint> surfaceJoints_;  ///< with perComponent, else empty
     std::vector<Joint> freeJoints_;
     BoxIndex bandBoxes_;     ///< surfaces with their bands
     BoxIndex surfaceBoxes_;  ///< surfaces alone, for rays
