@@ -120,6 +120,20 @@ std::vector<std::uint32_t> FreeSpace::insert(const std::vector<RayBundle>& bundl
     return changed;
 }
 
+std::uint32_t FreeSpace::merge(const Gaussian<4>& component, int octave) {
+    const LatticeCell cell = LatticeCell::at(component.mean.head<3>(), octave);
+    const auto [entry, isNew] =
+        componentOf_.try_emplace(cell, static_cast<std::uint32_t>(cells_.size()));
+    const std::uint32_t i = entry->second;
+    if (isNew) {
+        cells_.push_back(cell);
+        mixture_.pushBack(storable(component));
+    } else {
+        mixture_.set(i, storable(mergeMoments(mixture_[i], component)));
+    }
+    return i;
+}
+
 Mixture<4> FreeSpace::coarsened(int times) const {
     CellNumbers numbers;
     std::vector<Gaussian<4>> merged;

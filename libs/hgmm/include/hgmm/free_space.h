@@ -49,6 +49,10 @@ class FreeSpace {
                                       const Clearance& clearance, const BandParams& band,
                                       const FreeSpaceParams& params);
 
+    /// Adds a component of another map, in the local frame, to the cell of its mean.
+    /// Returns which component it became.
+    std::uint32_t merge(const Gaussian<4>& component, int octave);
+
     const Mixture<4>& mixture() const { return mixture_; }
     /// Octave of the cell of component i: its edge is 2^octave m.
     int octave(std::size_t i) const { return cells_[i].octave; }

@@ -66,6 +66,18 @@ class Map {
     /// as it was; a scan without usable points changes nothing.
     InsertReport insert(const Scan& scan);
 
+    /// Adds what another map knows; this map's parameters stay.
+    ///
+    /// A surface component joins the one that it resembles most, as seen from the same
+    /// side and before the merge, if KL is within params().hierarchy.similarityMax either
+    /// way; others are added. Free space joins cell by cell. Nothing is forgotten: rays are
+    /// gone, so where one map is free and the other occupied, both stay.
+    ///
+    /// @param T_this_other pose of the other map's frame in this one's
+    /// Throws std::invalid_argument for a pose that is not finite or not rigid, or maps of
+    /// different freeSpaceModel; nothing is changed then.
+    void merge(const Map& other, const Pose& T_this_other = {});
+
     bool empty() const { return model_.surfaces.empty(); }
     void clear();
 
@@ -147,6 +159,10 @@ class Map {
     void contradict(const Mixture<3>& samples, const Eigen::Vector3d& sensorOrigin,
                     InsertReport& report);
     void removeSurface(std::uint32_t i);
+    /// Joins a component of another map, in this local frame, to the most similar of the
+    /// first `candidates`, or adds it. Returns which it became.
+    std::uint32_t mergeSurface(const Gaussian<3>& component, const View& view,
+                               std::size_t candidates);
     void addFreeOfSurface(std::uint32_t i, const RayBundle& bundle,
                           const Eigen::Vector3d& sensorOrigin);
 
