@@ -8,7 +8,7 @@ packages=(
     g++ cmake ninja-build
     libmrpt-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libnanoflann-dev liboctomap-dev
     # tests
-    libgtest-dev libbenchmark-dev clang-format
+    libgtest-dev libbenchmark-dev clang-format chromium
     # stock MRPT apps and their data, used by the tests and the demo
     mrpt-apps mrpt-common
 )

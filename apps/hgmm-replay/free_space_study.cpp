@@ -55,7 +55,8 @@ void freeSpaceStudy(Recording& recording, const RecordingOptions& recordingOptio
     std::printf("study free-space: %zu scans mapped, %zu tested\n", slabs.run.scansMapped,
                 slabs.run.scansTested);
     std::fputs(occupancyTable(slabs.run, maps).c_str(), stdout);
-    if (options.reportFolder) writeReport(slabs.run, maps, *options.reportFolder);
+    if (options.reportFolder)
+        writeReport(slabs, maps, *options.reportFolder, picturesOf(slabs));
 }
 
 }  // namespace replay

@@ -4,17 +4,13 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "fidelity_study.h"
-#include "free_space_study.h"
-#include "incremental_study.h"
 #include "interrupt.h"
 #include "map_setup.h"
 #include "occupancy_options.h"
 #include "options.h"
-#include "regression_study.h"
 #include "replay_scans.h"
 #include "report.h"
-#include "room_study.h"
+#include "studies.h"
 #include "table.h"
 #include "threads.h"
 
@@ -24,17 +20,6 @@ using namespace replay;
 using namespace hgmm::evaluation;
 
 enum ExitCode { kDone = 0, kBadInput = 1, kWrongUsage = 2, kInterrupted = 130 };
-
-constexpr const char* kStudies =
-    "fig3.2       estimated size of each scan's mixture, and its divergence as it is "
-    "reduced\n"
-    "incremental  held-out likelihood of the map against mixtures of as many components\n"
-    "             fitted to all scans at once; needs --split K or --holdout-points F\n"
-    "free-space   both models of free space side by side; needs test points as above.\n"
-    "             The thesis' own is slow on large maps: begin with --to 50\n"
-    "room         shares of right answers in a noiseless box room; needs --split K. Add\n"
-    "             noise with --range-noise S\n"
-    "fig4.5       variance of a noisy sine, by mixture and by Gaussian process; no LOG\n";
 
 void defineOptions(CLI::App& app, Options& o, bool& listStudies) {
     app.add_option("LOG", o.log, "Recording to replay (.rawlog)");
@@ -54,7 +39,7 @@ void defineOptions(CLI::App& app, Options& o, bool& listStudies) {
                    "Gaussian noise added to the ranges of mapping scans, one sigma (m)")
         ->check(CLI::Range(0.0, 10.0));
     defineOccupancyOptions(app, o);
-    app.add_option("--report,--out", o.reportFolder, "Folder for metrics.json and figures");
+    app.add_option("--report", o.reportFolder, "Folder for metrics.json and figures");
     app.add_option("--save-map", o.saveMap, "File for the map (.hgmm)");
     app.add_option("--from", o.from, "First scan to use")->check(CLI::NonNegativeNumber);
     app.add_option("--to", o.to, "Last scan to use")->check(CLI::NonNegativeNumber);
@@ -64,22 +49,32 @@ void defineOptions(CLI::App& app, Options& o, bool& listStudies) {
         ->check(CLI::NonNegativeNumber);
     app.add_flag("--quiet", o.quiet, "No progress");
     app.add_option("--study", o.study, "Make a study instead of a map (--list-studies)")
-        ->check(CLI::IsMember({"fig3.2", "incremental", "free-space", "room", "fig4.5"}));
+        ->check([](const std::string& name) {
+            return findStudy(name) ? "" : "no such study; --list-studies names them";
+        });
     app.add_flag("--list-studies", listStudies, "List the studies");
 }
 
+void checkStudyUsage(const Study& study, const Options& o) {
+    using Needs = Study::Needs;
+    const std::string option = "--study " + study.name;
+    if (study.needs == Needs::nothing && !o.log.empty())
+        throw CLI::ValidationError(option, "makes its own data and takes no LOG");
+    if (study.needs == Needs::testPoints && o.split.every == 0 &&
+        o.split.holdoutPoints == 0.0)
+        throw CLI::ValidationError(option,
+                                   "needs test points: --split K or --holdout-points F");
+    if (study.needs == Needs::testScans && o.split.every == 0)
+        throw CLI::ValidationError(option, "needs test scans: --split K");
+}
+
 void checkUsage(const Options& o) {
-    if (o.study == "fig4.5" && !o.log.empty())
-        throw CLI::ValidationError("--study fig4.5", "makes its own data and takes no LOG");
-    if (o.log.empty() && o.study != "fig4.5") throw CLI::RequiredError("LOG");
+    const Study* study = o.study ? findStudy(*o.study) : nullptr;
+    if (study) checkStudyUsage(*study, o);
+    if (o.log.empty() && (!study || study->needs != Study::Needs::nothing))
+        throw CLI::RequiredError("LOG");
     checkOccupancyUsage(o);
     if (o.from > o.to) throw CLI::ValidationError("--from", "lies beyond --to");
-    const bool comparesMaps = o.study == "incremental" || o.study == "free-space";
-    if (comparesMaps && o.split.every == 0 && o.split.holdoutPoints == 0.0)
-        throw CLI::ValidationError("--study " + *o.study,
-                                   "needs test points: --split K or --holdout-points F");
-    if (o.study == "room" && o.split.every == 0)
-        throw CLI::ValidationError("--study room", "needs test scans: --split K");
     try {
         o.split.validate();
     } catch (const std::invalid_argument& e) {
@@ -106,7 +101,8 @@ ExitCode makeMapAndReport(Recording& recording, const Options& options) {
     const std::vector<MapFigures> maps = evaluateReplayed(replayed);
     std::fputs(table(replayed.run, maps, summariseTimes(replayed.conversion_ms)).c_str(),
                stdout);
-    if (options.reportFolder) writeReport(replayed.run, maps, *options.reportFolder);
+    if (options.reportFolder)
+        writeReport(replayed, maps, *options.reportFolder, picturesOf(replayed));
     if (options.saveMap) replayed.map->saveToFile(*options.saveMap);
     if (!replayed.run.interrupted) return kDone;
     std::fprintf(stderr,
@@ -116,10 +112,12 @@ ExitCode makeMapAndReport(Recording& recording, const Options& options) {
 }
 
 ExitCode run(Options& options) {
+    checkBaselines(options);
     prepareOutputs(options);
     options.threads = useThreads(options.threads);
-    if (options.study == "fig4.5") {
-        regressionStudy(options);
+    const Study* study = options.study ? findStudy(*options.study) : nullptr;
+    if (study && study->alone) {
+        study->alone(options);
         return kDone;
     }
     RecordingOptions recordingOptions{options.poses, options.from, options.to,
@@ -128,15 +126,8 @@ ExitCode run(Options& options) {
     if (!recording.damage().empty())
         std::fprintf(stderr, "warning: %s\n", recording.damage().c_str());
     catchInterrupts();
-    if (!options.study) return makeMapAndReport(recording, options);
-    if (options.study == "incremental")
-        incrementalStudy(recording, recordingOptions, options);
-    else if (options.study == "free-space")
-        freeSpaceStudy(recording, recordingOptions, options);
-    else if (options.study == "room")
-        roomStudy(recording, recordingOptions, options);
-    else
-        fidelityStudy(recording, makeMap(options.config)->insertionOptions.params, options);
+    if (!study) return makeMapAndReport(recording, options);
+    study->run(recording, recordingOptions, options);
     return interrupted() ? kInterrupted : kDone;
 }
 
@@ -152,7 +143,7 @@ int main(int argc, char** argv) {
     try {
         app.parse(argc, argv);
         if (listStudies) {
-            std::fputs(kStudies, stdout);
+            std::fputs(studyList().c_str(), stdout);
             return kDone;
         }
         checkUsage(options);

@@ -9,6 +9,17 @@ namespace replay {
 
 using namespace hgmm::evaluation;
 
+namespace {
+
+std::string namesOfBaselines() {
+    std::string names;
+    for (const auto& [name, text] : baselineNames())
+        names += (names.empty() ? "" : ", ") + name + " (" + text + ")";
+    return names;
+}
+
+}  // namespace
+
 void defineOccupancyOptions(CLI::App& app, Options& o) {
     using Numbers = std::vector<double>;
     app.add_option_function<Numbers>(
@@ -30,8 +41,10 @@ void defineOccupancyOptions(CLI::App& app, Options& o) {
         ->delimiter(',')
         ->expected(2);
     app.add_option(
-           "--baseline", o.baselines,
-           "Another map to evaluate beside ours: octomap:RESOLUTION [m]; repeatable")
+           "--baselines", o.baselines,
+           "Other maps to evaluate beside ours, NAME or NAME:RESOLUTION in metres: " +
+               namesOfBaselines())
+        ->delimiter(',')
         ->allow_extra_args(false);
 }
 
@@ -39,10 +52,13 @@ void checkOccupancyUsage(const Options& o) {
     try {
         if (o.near) o.near->validate();
         o.free.validate();
-        for (const std::string& baseline : o.baselines) makeBaseline(baseline);
     } catch (const std::invalid_argument& e) {
         throw CLI::ValidationError(e.what());
     }
+}
+
+void checkBaselines(const Options& o) {
+    for (const std::string& baseline : o.baselines) makeBaseline(baseline);
 }
 
 }  // namespace replay

@@ -25,14 +25,18 @@ std::string queriesNote(const Run& run, const OccupancyFigures& f) {
     return text;
 }
 
+/// Of maps whose answers are no probabilities, only what ranks points.
 std::string accuracy(const MapFigures& map, int width) {
     const OccupancyFigures& f = *map.occupancy;
-    std::string row = format("  %-*s  %.4f  %.4f   %.4f", width, map.name.c_str(),
-                             f.aucUniform, f.aucNear, f.balancedAccuracyNear);
+    const bool probabilities = map.meaning == Meaning::occupancy;
+    std::string row =
+        format("  %-*s  %.4f  %.4f   ", width, map.name.c_str(), f.aucUniform, f.aucNear);
+    row += probabilities ? format("%.4f", f.balancedAccuracyNear) : format("%6s", "-");
     row +=
         format("    %.3f %.3f   %.3f %.3f", tprAt(f.rocUniform, 0.01),
                tprAt(f.rocUniform, 0.05), tprAt(f.rocNear, 0.01), tprAt(f.rocNear, 0.05));
-    row += format("  %.4f  %.3f  %.4f", f.brier, f.logLoss, f.ece);
+    row += probabilities ? format("  %.4f  %.3f  %.4f", f.brier, f.logLoss, f.ece)
+                         : format("  %6s  %5s  %6s", "-", "-", "-");
     return row + format("  %.3f  %.3f  %.3f\n", f.unknownShareHit, f.unknownShareFree,
                         f.unknownShareNear);
 }

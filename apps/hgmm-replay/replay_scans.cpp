@@ -1,8 +1,13 @@
 #include "replay_scans.h"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 
+#include "format.h"
+#include "hgmm/evaluation/configured_baselines.h"
+#include "hgmm/evaluation/memory.h"
+#include "hgmm/evaluation/points.h"
 #include "hgmm/evaluation/range_noise.h"
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
 #include "interrupt.h"
@@ -18,11 +23,36 @@ double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-template <class Insert>
-void timed(std::vector<double>& durations_ms, const Insert& insert) {
+template <class Insert, class LiveBytes>
+void insertAndMeasure(InsertionCost& cost, std::size_t scansBetweenSizes,
+                      const Insert& insert, const LiveBytes& liveBytes) {
     const Clock::time_point start = Clock::now();
     insert();
-    durations_ms.push_back(millisecondsSince(start));
+    cost.insert_ms.push_back(millisecondsSince(start));
+    const std::size_t scans = cost.insert_ms.size();
+    if (scans % scansBetweenSizes == 0) cost.liveBytes.emplace_back(scans, liveBytes());
+}
+
+/// "octomap" becomes "octomap:0.05".
+std::string nameOf(const std::string& specification, const Baseline& map) {
+    const auto options = map.options();
+    if (specification.find(':') != std::string::npos || options.empty() ||
+        options.front().first != "resolution")
+        return specification;
+    return specification + format(":%g", options.front().second);
+}
+
+std::vector<ReplayedBaseline> makeBaselines(const Options& options, SensorKind sensor) {
+    std::vector<ReplayedBaseline> baselines;
+    for (const std::string& specification : options.baselines) {
+        std::unique_ptr<Baseline> map = makeBaseline(specification, sensor);
+        const std::string name = nameOf(specification, *map);
+        baselines.push_back({name, std::move(map), {}});
+    }
+    if (options.config)
+        for (auto& [name, map] : configuredBaselines(*options.config))
+            baselines.push_back({name, std::move(map), {}});
+    return baselines;
 }
 
 /// Empty maps, and how they are to be tested.
@@ -30,10 +60,13 @@ Replayed prepare(const Recording& recording,
                  std::unique_ptr<mrpt::maps::CHGMMOccupancyMap> map,
                  const Options& options) {
     const NearBand near = options.near.value_or(nearBandOf(recording.sensor()));
-    Replayed replayed{
-        std::move(map), {}, {}, TestPoints(options.split.seed, near, options.free), {}, {}};
-    for (const std::string& name : options.baselines)
-        replayed.baselines.push_back({name, makeBaseline(name), {}});
+    Replayed replayed{std::move(map),
+                      makeBaselines(options, sensorKindOf(recording.sensor())),
+                      {},
+                      TestPoints(options.split.seed, near, options.free),
+                      {},
+                      {},
+                      {}};
     Run& run = replayed.run;
     run.dataset = std::filesystem::path(options.log).stem().string();
     run.sensor = recording.sensor();
@@ -46,8 +79,20 @@ Replayed prepare(const Recording& recording,
     return replayed;
 }
 
+/// How much of a run is kept to be looked at.
+struct Sampling {
+    explicit Sampling(std::size_t scans)
+        : scansBetweenSizes(std::max<std::size_t>(1, scans / 20)),
+          pointsPerScan(
+              std::max<std::size_t>(1, 300000 / std::max<std::size_t>(1, scans))) {}
+
+    std::size_t scansBetweenSizes;  ///< between measurements of live bytes
+    std::size_t pointsPerScan;      ///< of input
+};
+
 /// Lets the map or the test have the points of one scan.
-void useScan(hgmm::Scan scan, std::size_t index, Replayed& replayed) {
+void useScan(hgmm::Scan scan, std::size_t index, const Sampling& sampling,
+             Replayed& replayed) {
     Run& run = replayed.run;
     if (run.split.isTestScan(index)) {
         ++run.scansTested;
@@ -59,9 +104,19 @@ void useScan(hgmm::Scan scan, std::size_t index, Replayed& replayed) {
     if (run.rangeNoise_m > 0.0)
         addRangeNoise(parts.mapping, run.rangeNoise_m, run.split.seed, index);
     replayed.testPoints.add(parts.heldOut, index);
-    timed(replayed.insert_ms, [&] { replayed.map->insertScan(parts.mapping); });
+    appendPoints(parts.mapping,
+                 chooseIndices(parts.mapping.size(), sampling.pointsPerScan, run.split.seed,
+                               index, Draw::picture),
+                 replayed.input_map);
+    insertAndMeasure(
+        replayed.cost, sampling.scansBetweenSizes,
+        [&] { replayed.map->insertScan(parts.mapping); },
+        [&] { return memoryOf(replayed.map->model()).live_bytes; });
     for (ReplayedBaseline& baseline : replayed.baselines)
-        timed(baseline.insert_ms, [&] { baseline.map->insert(parts.mapping); });
+        insertAndMeasure(
+            baseline.cost, sampling.scansBetweenSizes,
+            [&] { baseline.map->insert(parts.mapping); },
+            [&] { return baseline.map->liveBytes(); });
 }
 
 }  // namespace
@@ -71,6 +126,7 @@ Replayed replayScans(Recording& recording,
                      const Options& options) {
     Replayed replayed = prepare(recording, std::move(map), options);
     Run& run = replayed.run;
+    const Sampling sampling(recording.size());
     std::size_t points = 0;
     Progress progress(recording.size(), options.quiet);
     while (const std::optional<RecordedScan> recorded = recording.next()) {
@@ -80,7 +136,7 @@ Replayed replayScans(Recording& recording,
         replayed.conversion_ms.push_back(millisecondsSince(start));
         if (scan) {
             points += scan->size();
-            useScan(std::move(*scan), recorded->index, replayed);
+            useScan(std::move(*scan), recorded->index, sampling, replayed);
         }
         progress.advance();
         run.interrupted = interrupted();

@@ -13,11 +13,18 @@
 
 namespace replay {
 
+/// What inserting the mapping scans into a map has cost, scan by scan.
+struct InsertionCost {
+    std::vector<double> insert_ms;  ///< of each, reading and conversion excluded
+    /// (mapping scans inserted, live bytes then), some 20 times over the run
+    std::vector<std::pair<std::size_t, std::size_t>> liveBytes;
+};
+
 /// Another map that saw the same scans.
 struct ReplayedBaseline {
-    std::string name;  ///< as given to makeBaseline
+    std::string name;  ///< with its resolution
     std::unique_ptr<hgmm::evaluation::Baseline> map;
-    std::vector<double> insert_ms;  ///< of each mapping scan
+    InsertionCost cost;
 };
 
 /// A recording, replayed.
@@ -26,9 +33,10 @@ struct Replayed {
     std::vector<ReplayedBaseline> baselines;
     hgmm::evaluation::Run run;
     hgmm::evaluation::TestPoints testPoints;
-    std::vector<double>
-        insert_ms;  ///< of each mapping scan, reading and conversion excluded
-    std::vector<double> conversion_ms;  ///< observation to scan, of every scan
+    hgmm::evaluation::Points input_map;  ///< some of the points of each mapping scan, to
+                                         ///< be looked at [m]
+    InsertionCost cost;                  ///< of `map`
+    std::vector<double> conversion_ms;   ///< observation to scan, of every scan
 };
 
 /// Inserts the mapping scans, in the map and in baselines, and collects the test points,

@@ -1,11 +1,23 @@
 #include "report.h"
 
+#include "format.h"
 #include "hgmm/evaluation/metrics_json.h"
 #include "hgmm/evaluation/occupancy_plots.h"
+#include "hgmm/evaluation/render.h"
 
 namespace replay {
 
 using namespace hgmm::evaluation;
+
+namespace {
+
+void addCost(const InsertionCost& cost, MapFigures& figures) {
+    figures.scanTime_ms = summariseTimes(cost.insert_ms);
+    figures.insert_ms = cost.insert_ms;
+    figures.liveBytesOverRun = cost.liveBytes;
+}
+
+}  // namespace
 
 std::vector<MapFigures> evaluateReplayed(const Replayed& replayed) {
     std::vector<MapFigures> maps;
@@ -13,18 +25,42 @@ std::vector<MapFigures> evaluateReplayed(const Replayed& replayed) {
         evaluateMap(replayed.map->model(), replayed.testPoints, replayed.run.split.seed));
     maps.back().name = "hgmm";
     maps.back().className = replayed.map->GetRuntimeClass()->className;
-    maps.back().scanTime_ms = summariseTimes(replayed.insert_ms);
+    addCost(replayed.cost, maps.back());
     for (const ReplayedBaseline& baseline : replayed.baselines) {
         maps.push_back(evaluateBaseline(*baseline.map, replayed.testPoints));
         maps.back().name = baseline.name;
-        maps.back().scanTime_ms = summariseTimes(baseline.insert_ms);
+        addCost(baseline.cost, maps.back());
     }
     return maps;
 }
 
-void writeReport(const Run& run, const std::vector<MapFigures>& maps,
-                 const std::string& folder) {
-    writeTextFile(folder + "/metrics.json", metricsJson(run, maps).dump(2) + "\n");
+View reportView(SensorKind sensor) {
+    View view;
+    view.yaw_deg = 35.0;
+    view.pitch_deg = 40.0;
+    // Depth cameras see rooms from within, whose near walls would hide the rest.
+    view.cut = sensor == SensorKind::depthCamera ? 0.3 : 0.0;
+    view.width_px = 900;
+    return view;
+}
+
+std::vector<ReportPicture> picturesOf(const Replayed& replayed) {
+    const View view = reportView(sensorKindOf(replayed.run.sensor));
+    const hgmm::Map& map = replayed.map->model();
+    if (replayed.input_map.empty() || map.empty()) return {};
+    const Frame frame = frameOf(replayed.input_map, view);
+    return {
+        {"Input",
+         format("%zu of the points that the maps were given", replayed.input_map.size()),
+         renderPoints(replayed.input_map, view, frame)},
+        {"Map", format("its %zu Gaussians of surfaces, to 2 sigma", map.mixture(0).size()),
+         renderEllipsoids(map.mixture(0), view, map.origin(), frame)}};
+}
+
+void writeReport(const Replayed& replayed, const std::vector<MapFigures>& maps,
+                 const std::string& folder, const std::vector<ReportPicture>& pictures) {
+    writeTextFile(folder + "/metrics.json", metricsJson(replayed.run, maps).dump(2) + "\n");
+    writeTextFile(folder + "/report.html", htmlReport(replayed.run, maps, pictures));
     if (!maps.front().occupancy) return;
     writeTextFile(folder + "/roc.svg", toSvg(rocPlot(maps)));
     writeTextFile(folder + "/reliability.svg", toSvg(reliabilityPlot(maps)));

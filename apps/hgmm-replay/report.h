@@ -3,6 +3,8 @@
 #include <vector>
 
 #include "hgmm/evaluation/figures.h"
+#include "hgmm/evaluation/html_report.h"
+#include "hgmm/evaluation/render.h"
 #include "replay_scans.h"
 
 namespace replay {
@@ -10,10 +12,18 @@ namespace replay {
 /// The figures of all maps of a run, ours first.
 std::vector<hgmm::evaluation::MapFigures> evaluateReplayed(const Replayed& replayed);
 
-/// Writes metrics.json, and, where occupancy was evaluated, roc.svg, reliability.svg and
-/// levels.svg. Throws std::runtime_error naming the file that cannot be written.
-void writeReport(const hgmm::evaluation::Run& run,
+/// Writes metrics.json and report.html, and, where occupancy was evaluated, roc.svg,
+/// reliability.svg and levels.svg. Throws std::runtime_error naming the file that cannot be
+/// written.
+void writeReport(const Replayed& replayed,
                  const std::vector<hgmm::evaluation::MapFigures>& maps,
-                 const std::string& folder);
+                 const std::string& folder,
+                 const std::vector<hgmm::evaluation::ReportPicture>& pictures);
+
+/// How pictures of reports look at maps: into rooms, at what is outdoors.
+hgmm::evaluation::View reportView(hgmm::evaluation::SensorKind sensor);
+
+/// The input, and beside it the map as ellipsoids.
+std::vector<hgmm::evaluation::ReportPicture> picturesOf(const Replayed& replayed);
 
 }  // namespace replay

@@ -18,19 +18,6 @@ std::string times(const char* what, const Timing& t) {
         what, t.median, t.p99, t.worst, t.firstTenth, t.lastTenth);
 }
 
-std::string levels(const MapFigures& map) {
-    std::string text =
-        "  level  surface      free        KB   KL to level 0 [nat]   AUC near  uniform\n";
-    for (const LevelFigures& level : map.levels) {
-        text += format("  %5zu  %7zu  %8zu  %8.1f   %-19.4f", level.level, level.components,
-                       level.componentsFree, kilobytes(level.bytes), level.klToLevel0);
-        if (level.aucNear && level.aucUniform)
-            text += format("   %.4f    %.4f", *level.aucNear, *level.aucUniform);
-        text += "\n";
-    }
-    return text;
-}
-
 /// What only a mixture of surfaces can be asked for.
 std::string surface(const MapFigures& map) {
     std::string text;
@@ -52,13 +39,26 @@ std::string surface(const MapFigures& map) {
 
 }  // namespace
 
+std::string levelsTable(const MapFigures& map) {
+    std::string text =
+        "  level  surface      free        KB   KL to level 0 [nat]   AUC near  uniform\n";
+    for (const LevelFigures& level : map.levels) {
+        text += format("  %5zu  %7zu  %8zu  %8.1f   %-19.4f", level.level, level.components,
+                       level.componentsFree, kilobytes(level.bytes), level.klToLevel0);
+        if (level.aucNear && level.aucUniform)
+            text += format("   %.4f    %.4f", *level.aucNear, *level.aucUniform);
+        text += "\n";
+    }
+    return text;
+}
+
 std::string table(const Run& run, const std::vector<MapFigures>& maps,
                   const Timing& conversion_ms) {
     const MapFigures& map = maps.front();
     std::string text =
         run.dataset + format(": %zu scans mapped, %zu tested, %.0f points each, ",
                              run.scansMapped, run.scansTested, run.pointsPerScan);
-    text += run.sensor + "\n\n" + map.name + "\n" + levels(map) + "\n";
+    text += run.sensor + "\n\n" + map.name + "\n" + levelsTable(map) + "\n";
     text += format("%-22s serialised %.1f KB, live %.1f KB\n", "map",
                    kilobytes(map.memory.serialized_bytes.value_or(0)),
                    kilobytes(map.memory.live_bytes));

@@ -12,4 +12,7 @@ std::string table(const hgmm::evaluation::Run& run,
                   const std::vector<hgmm::evaluation::MapFigures>& maps,
                   const hgmm::evaluation::Timing& conversion_ms);
 
+/// The levels of our map, a line each.
+std::string levelsTable(const hgmm::evaluation::MapFigures& map);
+
 }  // namespace replay

@@ -32,7 +32,7 @@ TEST_F(ReplayFreeSpace, BothModelsAreEvaluatedOnTheSameScans) {
 
 TEST_F(ReplayFreeSpace, BaselinesComeLastAndOnce) {
     const Outcome outcome =
-        replay(recordRoom(4, 500) + " --split 2 --baseline octomap:0.4 --report " +
+        replay(recordRoom(4, 500) + " --split 2 --baselines octomap:0.4 --report " +
                path("both") + " --study free-space");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const auto json = metrics("both");

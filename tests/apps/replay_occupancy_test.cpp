@@ -4,7 +4,7 @@ using ReplayOccupancy = ReplayFolder;
 
 TEST_F(ReplayOccupancy, BaselinesAreEvaluatedBesideTheMap) {
     const Outcome outcome =
-        replay(recordRoom() + " --split 4 --baseline octomap:0.1 --baseline octomap:0.4" +
+        replay(recordRoom() + " --split 4 --baselines octomap:0.1,octomap:0.4" +
                " --report " + path("report"));
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const auto json = metrics("report");
@@ -36,7 +36,7 @@ TEST_F(ReplayOccupancy, BaselinesAreEvaluatedBesideTheMap) {
 TEST_F(ReplayOccupancy, BaselinesDoNotChangeTheMap) {
     const std::string command = recordRoom() + " --split 4 --save-map ";
     ASSERT_EQ(replay(command + path("alone.hgmm")).exitCode, 0);
-    ASSERT_EQ(replay(command + path("beside.hgmm") + " --baseline octomap:0.2").exitCode,
+    ASSERT_EQ(replay(command + path("beside.hgmm") + " --baselines octomap:0.2").exitCode,
               0);
     ASSERT_FALSE(content("alone.hgmm").empty());
     EXPECT_TRUE(content("alone.hgmm") == content("beside.hgmm"));
@@ -101,8 +101,9 @@ TEST_F(ReplayOccupancy, WrongUsageIsTwo) {
     EXPECT_EQ(replay(room + " --free-band 0.1").exitCode, 2);
     EXPECT_EQ(replay(room + " --free-band=0.1,-1").exitCode, 2);
     EXPECT_EQ(replay(room + " --free-band 0.1,x").exitCode, 2);
-    EXPECT_EQ(replay(room + " --baseline octomap").exitCode, 2);
-    const Outcome unknown = replay(room + " --baseline voxels:0.1");
-    EXPECT_EQ(unknown.exitCode, 2);
-    expectHas(unknown.err + unknown.out, "voxels:0.1");
+    const Outcome unknown = replay(room + " --baselines voxels:0.1");
+    EXPECT_EQ(unknown.exitCode, 1);
+    expectHas(unknown.err, "voxels:0.1");
+    expectHas(unknown.err, "octomap");
+    EXPECT_EQ(replay(room + " --baselines octomap:-1").exitCode, 1);
 }

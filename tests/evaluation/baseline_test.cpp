@@ -5,40 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
+#include <tuple>
 
 #include "hgmm/evaluation/figures.h"
+#include "wall_scene.h"
 
 using namespace hgmm::evaluation;
-
-namespace {
-
-constexpr double kWall_m = 3.03;  // x of the wall in the map frame, amid a voxel of 10 cm
-
-/// A wall of 2 x 2 m, seen from (1.03, 0.53, 0.73) by a sensor that is turned by 90
-/// degrees.
-hgmm::Scan wallScan() {
-    hgmm::Scan scan;
-    scan.T_map_sensor.R << 0, -1, 0, 1, 0, 0, 0, 0, 1;
-    scan.T_map_sensor.t << 1.03, 0.53, 0.73;
-    for (int i = -50; i <= 50; ++i)
-        for (int j = -50; j <= 50; ++j) {
-            const Eigen::Vector3d p_map(kWall_m, 0.53 + 0.02 * i, 0.73 + 0.02 * j);
-            const Eigen::Vector3f p_sensor =
-                (scan.T_map_sensor.R.transpose() * (p_map - scan.T_map_sensor.t))
-                    .cast<float>();
-            scan.pushBack(p_sensor.x(), p_sensor.y(), p_sensor.z());
-        }
-    return scan;
-}
-
-Answer ask(const Baseline& map, double x, double y = 0.53, double z = 0.73) {
-    const Eigen::Vector3d p(x, y, z);
-    Answer answer;
-    map.query(&p, 1, &answer);
-    return answer;
-}
-
-}  // namespace
+using namespace wall_scene;
 
 TEST(OctomapBaseline, AWallSeenFromOnePlace) {
     const auto map = makeBaseline("octomap:0.1");
@@ -96,9 +70,62 @@ TEST(Baseline, IsMadeByNameAndResolution) {
     ASSERT_FALSE(map->options().empty());
     EXPECT_EQ(map->options()[0].first, "resolution");
     EXPECT_DOUBLE_EQ(map->options()[0].second, 0.25);
-    for (const char* wrong : {"", "octomap", "octomap:", "octomap:0", "octomap:-1",
-                              "octomap:nan", "octomap:x", "octomap:0.1 0.2", "grid:0.1"})
+    for (const char* wrong :
+         {"", "octomap:", "octomap:0", "octomap:-1", "octomap:nan", "octomap:x",
+          "octomap:0.1 0.2", "grid:0.1", "nn:0.1", "ndt:", "ndt-om:inf", "grid3d:0"})
         EXPECT_THROW(makeBaseline(wrong), std::invalid_argument) << wrong;
+}
+
+TEST(Baseline, ResolutionsGoByTheSensor) {
+    for (const auto& [name, depthCamera_m, lidar_m] :
+         {std::tuple("octomap", 0.05, 0.3), std::tuple("grid3d", 0.05, 0.3),
+          std::tuple("ndt", 0.1, 0.4), std::tuple("ndt-om", 0.1, 0.4),
+          std::tuple("gpoctomap", 0.05, 0.3)}) {
+        const auto near = makeBaseline(name), far = makeBaseline(name, SensorKind::lidar);
+        EXPECT_EQ(near->options().at(0).first, "resolution") << name;
+        EXPECT_DOUBLE_EQ(near->options().at(0).second, depthCamera_m) << name;
+        EXPECT_DOUBLE_EQ(far->options().at(0).second, lidar_m) << name;
+    }
+}
+
+TEST(Baseline, AllAreNamedInTheErrorAndCanBeMade) {
+    std::string message;
+    try {
+        makeBaseline("voxels");
+    } catch (const std::invalid_argument& error) {
+        message = error.what();
+    }
+    EXPECT_NE(message.find("voxels"), std::string::npos);
+    ASSERT_EQ(baselineNames().size(), 6U);
+    for (const auto& [name, line] : baselineNames()) {
+        EXPECT_NE(message.find(name), std::string::npos) << name;
+        EXPECT_FALSE(line.empty()) << name;
+        EXPECT_FALSE(makeBaseline(name)->source().empty()) << name;
+    }
+}
+
+TEST(Baseline, AnyMapBearsEmptyAndHostileInput) {
+    for (const auto& entry : baselineNames()) {
+        const auto clean = makeBaseline(entry.first), dirty = makeBaseline(entry.first);
+        dirty->insert(hgmm::Scan{});
+        hgmm::Scan nothing;
+        addHostilePoints(nothing);
+        dirty->insert(nothing);
+        EXPECT_TRUE(ask(*dirty, 0.0).unknown) << entry.first;
+        hgmm::Scan scan = rays(20);
+        addPoint(scan, origin_map());  // a range of zero
+        clean->insert(scan);
+        addHostilePoints(scan);
+        dirty->insert(scan);
+        EXPECT_EQ(clean->liveBytes(), dirty->liveBytes()) << entry.first;
+        for (const double x : {1.03, 2.0, 2.9, 3.03, 3.1, 1e6, -1e300, std::nan("")}) {
+            const Answer answer = ask(*dirty, x);
+            EXPECT_EQ(answer.probability, ask(*clean, x).probability) << entry.first << x;
+            EXPECT_GE(answer.probability, 0.0) << entry.first << x;
+            EXPECT_LE(answer.probability, 1.0) << entry.first << x;
+        }
+        EXPECT_TRUE(ask(*dirty, std::nan("")).unknown) << entry.first;
+    }
 }
 
 TEST(Baseline, IsScoredByTheSameCode) {

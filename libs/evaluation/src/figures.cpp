@@ -1,6 +1,7 @@
 #include "hgmm/evaluation/figures.h"
 
 #include <chrono>
+#include <cmath>
 
 #include "hgmm/divergence.h"
 #include "hgmm/evaluation/likelihood.h"
@@ -45,6 +46,7 @@ MapFigures evaluateMap(const Map& built, const TestPoints& testPoints, std::uint
     const std::vector<std::uint8_t> saved = built.save();
     const Map map = Map::load(saved.data(), saved.size());
     MapFigures figures;
+    figures.source = "this project; docs/method.md";
     forEachField(map.params(), [&](const char* name, auto value) {
         figures.options.emplace_back(name, static_cast<double>(value));
     });
@@ -66,15 +68,40 @@ MapFigures evaluateMap(const Map& built, const TestPoints& testPoints, std::uint
     return figures;
 }
 
+MapFigures evaluateSurface(const Map& built, const TestPoints& testPoints) {
+    const std::vector<std::uint8_t> saved = built.save();
+    const Map map = Map::load(saved.data(), saved.size());
+    MapFigures figures;
+    figures.source = "this project; docs/method.md";
+    figures.meaning = Meaning::surfaceLikelihood;
+    figures.ranked = false;
+    figures.memory = memoryOf(built);
+    figures.occupancy = occupancyOf(
+        [&](const Eigen::Vector3d* points_map, std::size_t n, Answer* answers) {
+            for (std::size_t i = 0; i < n; ++i) {
+                // Any rising function of the density ranks alike; this one stays in [0, 1].
+                const double odds = std::exp(map.logDensity(points_map[i]));
+                answers[i] = {std::isfinite(odds) ? odds / (odds + 1.0) : 1.0, false};
+            }
+        },
+        testPoints);
+    return figures;
+}
+
 MapFigures evaluateBaseline(const Baseline& baseline, const TestPoints& testPoints) {
     MapFigures figures;
     figures.className = baseline.className();
+    figures.source = baseline.source();
+    figures.meaning = baseline.meaning();
+    figures.ranked = figures.meaning == Meaning::occupancy;
     figures.options = baseline.options();
-    figures.memory.live_bytes = baseline.liveBytes();
     figures.occupancy =
         occupancyOf([&](const Eigen::Vector3d* points_map, std::size_t n,
                         Answer* answers) { baseline.query(points_map, n, answers); },
                     testPoints);
+    // After the queries, for which some maps finish work first.
+    figures.memory.live_bytes = baseline.liveBytes();
+    figures.memory.serialized_bytes = baseline.serializedBytes();
     return figures;
 }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "hgmm/evaluation/sensor_kind.h"
+
 namespace hgmm::evaluation {
 
 void NearBand::validate() const {
@@ -24,9 +26,7 @@ void FreeBand::validate() const {
 
 NearBand nearBandOf(const std::string& observationClass) {
     constexpr NearBand depthCamera{0.05, 0.30}, lidar{0.10, 0.60};
-    const bool isDepthCamera =
-        observationClass.find("CObservation3DRangeScan") != std::string::npos;
-    return isDepthCamera ? depthCamera : lidar;
+    return sensorKindOf(observationClass) == SensorKind::depthCamera ? depthCamera : lidar;
 }
 
 std::optional<double> rangeIn(const NearBand& band, double ray_m, double share) {

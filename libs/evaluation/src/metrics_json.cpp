@@ -50,6 +50,29 @@ Json rocJson(const RocCurve& curve) {
     return json;
 }
 
+const char* nameOf(Meaning meaning) {
+    switch (meaning) {
+        case Meaning::occupancy:
+            return "occupancy";
+        case Meaning::surfaceLikelihood:
+            return "surface_likelihood";
+        case Meaning::nearness:
+            return "nearness";
+    }
+    return "";
+}
+
+/// What only a probability of occupancy can be asked for.
+void addCalibration(const OccupancyFigures& f, Json& json) {
+    json["balanced_accuracy_near"] = f.balancedAccuracyNear;
+    json["brier"] = f.brier;
+    json["log_loss"] = f.logLoss;
+    json["ece"] = f.ece;
+    json["reliability"] = Json::array();
+    for (const ReliabilityBin& bin : f.reliability)
+        json["reliability"].push_back({bin.meanProbability, bin.occupiedShare});
+}
+
 void addOccupancy(const OccupancyFigures& f, Json& json) {
     json["hits"] = f.hits;
     json["uniform_free_points"] = f.uniformFree;
@@ -60,25 +83,24 @@ void addOccupancy(const OccupancyFigures& f, Json& json) {
     json["tpr_at_fpr_5pct"] = tprAt(f.rocUniform, 0.05);
     json["tpr_at_fpr_1pct_near"] = tprAt(f.rocNear, 0.01);
     json["tpr_at_fpr_5pct_near"] = tprAt(f.rocNear, 0.05);
-    json["balanced_accuracy_near"] = f.balancedAccuracyNear;
-    json["brier"] = f.brier;
-    json["log_loss"] = f.logLoss;
-    json["ece"] = f.ece;
     json["unknown_share_hit"] = f.unknownShareHit;
     json["unknown_share_free"] = f.unknownShareFree;
     json["unknown_share_near"] = f.unknownShareNear;
     json["queries_per_s"] = f.queriesPerSecond;
     json["roc"] = rocJson(f.rocUniform);
     json["roc_near"] = rocJson(f.rocNear);
-    json["reliability"] = Json::array();
-    for (const ReliabilityBin& bin : f.reliability)
-        json["reliability"].push_back({bin.meanProbability, bin.occupiedShare});
 }
 
 Json mapJson(const MapFigures& map) {
-    Json json{{"name", map.name}, {"class", map.className}};
+    Json json{{"name", map.name},
+              {"class", map.className},
+              {"source", map.source},
+              {"score", nameOf(map.meaning)},
+              {"ranked", map.ranked}};
     for (const auto& [key, value] : map.options) json["options"][key] = value;
     if (map.occupancy) addOccupancy(*map.occupancy, json);
+    if (map.occupancy && map.meaning == Meaning::occupancy)
+        addCalibration(*map.occupancy, json);
     if (map.logLikelihoodOfHits) json["loglik_hit"] = *map.logLikelihoodOfHits;
     if (map.reconstruction) {
         json["accuracy_m"] = map.reconstruction->accuracy_m;
@@ -98,6 +120,10 @@ Json mapJson(const MapFigures& map) {
     json["scan_ms_worst"] = map.scanTime_ms.worst;
     json["scan_ms_first_tenth"] = map.scanTime_ms.firstTenth;
     json["scan_ms_last_tenth"] = map.scanTime_ms.lastTenth;
+    json["scan_ms"] = map.insert_ms;
+    json["bytes_live_over_run"] = Json::array();
+    for (const auto& [scans, bytes] : map.liveBytesOverRun)
+        json["bytes_live_over_run"].push_back({scans, bytes});
     if (map.likelihoodsPerSecond) json["likelihoods_per_s"] = *map.likelihoodsPerSecond;
     json["levels"] = Json::array();
     for (const LevelFigures& level : map.levels) json["levels"].push_back(levelJson(level));

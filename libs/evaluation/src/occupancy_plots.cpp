@@ -1,5 +1,8 @@
 #include "hgmm/evaluation/occupancy_plots.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace hgmm::evaluation {
 namespace {
 
@@ -19,15 +22,20 @@ Curve diagonal() {
     return curve;
 }
 
+Plot rocAxes(const std::string& title) {
+    Plot plot;
+    plot.title = title;
+    plot.xLabel = "false positive rate";
+    plot.yLabel = "true positive rate";
+    plot.curves.push_back(diagonal());
+    return plot;
+}
+
 }  // namespace
 
 Plot rocPlot(const std::vector<MapFigures>& maps) {
-    Plot plot;
-    plot.title = "Occupied or free: thick, free points near the hit; thin, anywhere";
-    plot.xLabel = "false positive rate";
-    plot.yLabel = "true positive rate";
-    plot.legend = Legend::bottomRight;
-    plot.curves.push_back(diagonal());
+    Plot plot =
+        rocAxes("Occupied or free: thick, free points near the hit; thin, anywhere");
     for (const MapFigures& map : maps) {
         if (!map.occupancy) continue;
         plot.curves.push_back(curveOf(map.occupancy->rocNear, map.name + ", near", true));
@@ -37,18 +45,50 @@ Plot rocPlot(const std::vector<MapFigures>& maps) {
     return plot;
 }
 
-Plot reliabilityPlot(const std::vector<MapFigures>& maps) {
-    Plot plot;
-    plot.title = "Reliability, hits and near free points 1:1, bins of equal mass";
-    plot.xLabel = "P(occupied) of the map, mean of the bin";
-    plot.yLabel = "share of the bin that was occupied";
-    plot.legend = Legend::bottomRight;
-    plot.curves.push_back(diagonal());
+Plot rocNearPlot(const std::vector<MapFigures>& maps) {
+    Plot plot = rocAxes("Hits or free points near them");
     for (const MapFigures& map : maps) {
         if (!map.occupancy) continue;
+        plot.curves.push_back(
+            curveOf(map.occupancy->rocNear, map.name, &map == &maps.front()));
+        plot.curves.back().style = static_cast<std::size_t>(&map - maps.data());
+    }
+    return plot;
+}
+
+Plot rocUniformPlot(const std::vector<MapFigures>& maps) {
+    constexpr double decades = 4.0, step = 0.04;
+    Plot plot = rocAxes("Hits or free points anywhere");
+    plot.xLogarithmic = true;
+    plot.curves.front().points.clear();
+    for (double x = -decades; x < 0.5 * step; x += step) {
+        const double fpr = std::min(1.0, std::pow(10.0, x));
+        plot.curves.front().points.emplace_back(fpr, fpr);
+    }
+    for (const MapFigures& map : maps) {
+        if (!map.occupancy || map.occupancy->rocUniform.empty()) continue;
+        Curve curve = plot.curves.front();
+        curve.label = map.name;
+        curve.emphasised = &map == &maps.front();
+        curve.style = static_cast<std::size_t>(&map - maps.data());
+        for (auto& [fpr, tpr] : curve.points) tpr = tprAt(map.occupancy->rocUniform, fpr);
+        plot.curves.push_back(curve);
+    }
+    return plot;
+}
+
+Plot reliabilityPlot(const std::vector<MapFigures>& maps) {
+    Plot plot;
+    plot.title = "Reliability: hits and near free points 1:1, in bins of equal mass";
+    plot.xLabel = "P(occupied) of the map, mean of the bin";
+    plot.yLabel = "occupied share of the bin";
+    plot.curves.push_back(diagonal());
+    for (const MapFigures& map : maps) {
+        if (!map.occupancy || map.meaning != Meaning::occupancy) continue;
         Curve curve;
         curve.label = map.name;
-        curve.emphasised = true;
+        curve.emphasised = &map == &maps.front();
+        curve.style = static_cast<std::size_t>(&map - maps.data());
         curve.markers = true;
         for (const ReliabilityBin& bin : map.occupancy->reliability)
             curve.points.emplace_back(bin.meanProbability, bin.occupiedShare);
@@ -62,13 +102,13 @@ Plot levelsPlot(const std::vector<MapFigures>& maps) {
     plot.title = "Accuracy against memory (levels of the hierarchy joined)";
     plot.xLabel = "memory [KB]";
     plot.yLabel = "AUC, near free points";
-    plot.legend = Legend::bottomLeft;
     plot.xLogarithmic = true;
     constexpr double kilobyte = 1000.0;
     for (const MapFigures& map : maps) {
         Curve curve;
         curve.label = map.name;
-        curve.emphasised = true;
+        curve.emphasised = &map == &maps.front();
+        curve.style = static_cast<std::size_t>(&map - maps.data());
         curve.markers = true;
         for (const LevelFigures& level : map.levels)
             if (level.aucNear && level.bytes > 0)

@@ -14,6 +14,10 @@ OctomapBaseline::OctomapBaseline(double resolution_m) : map_(resolution_m) {
     map_.insertionOptions.pruning = false;
 }
 
+std::string OctomapBaseline::source() const {
+    return "Hornung et al., OctoMap, Autonomous Robots 2013";
+}
+
 std::vector<std::pair<std::string, double>> OctomapBaseline::options() const {
     return {{"resolution", map_.getResolution()},
             {"probHit", map_.getProbHit()},

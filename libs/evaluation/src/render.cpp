@@ -1,177 +1,192 @@
 #include "hgmm/evaluation/render.h"
 
-#include <mrpt/img/CImage.h>
-
-#include <Eigen/Geometry>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <limits>
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 
+#include "canvas.h"
 #include "hgmm/require.h"
 
 namespace hgmm::evaluation {
 namespace {
 
-constexpr int kMaxHeight_px = 2000;
-constexpr double kMargin = 0.03;  // of the picture's width
+const Eigen::Vector3d kLight = Eigen::Vector3d(-0.4, -0.6, -0.8).normalized();
 
-using Rgb = std::array<double, 3>;
-
-/// Dark blue to yellow by rising lightness: ordered for every kind of colour vision.
-Rgb heightColour(double share) {
-    static constexpr std::array<Rgb, 5> stops = {{{0.27, 0.00, 0.33},
-                                                  {0.23, 0.32, 0.55},
-                                                  {0.13, 0.57, 0.55},
-                                                  {0.37, 0.79, 0.38},
-                                                  {0.99, 0.91, 0.14}}};
-    const double at = std::clamp(share, 0.0, 1.0) * (stops.size() - 1);
-    const auto below =
-        std::min<std::size_t>(static_cast<std::size_t>(at), stops.size() - 2);
-    Rgb colour{};
-    for (std::size_t c = 0; c < 3; ++c)
-        colour[c] = stops[below][c] +
-                    (at - double(below)) * (stops[below + 1][c] - stops[below][c]);
-    return colour;
+double brightnessOf(const Eigen::Vector3d& normal_view) {
+    return 0.45 + 0.55 * std::max(0.0, normal_view.dot(kLight));
 }
 
-/// Rows: right, down, away from the viewer.
-Eigen::Matrix3d viewAxes(const View& view) {
-    const double yaw = view.yaw_deg * M_PI / 180, pitch = view.pitch_deg * M_PI / 180;
-    const Eigen::Vector3d away(std::cos(pitch) * std::cos(yaw),
-                               std::cos(pitch) * std::sin(yaw), -std::sin(pitch));
-    const Eigen::Vector3d right(std::sin(yaw), -std::cos(yaw), 0.0);
-    Eigen::Matrix3d axes;
-    axes << right.transpose(), away.cross(right).transpose(), away.transpose();
-    return axes;
+/// The frame of a mixture's means and their ellipsoids, colours by the means.
+Frame frameOfEllipsoids(const std::vector<Gaussian<3>>& seen,
+                        const std::vector<double>& heights_m, double sigmas) {
+    if (seen.empty()) throw std::invalid_argument("an empty map has no picture");
+    const auto [lowest, highest] = std::minmax_element(heights_m.begin(), heights_m.end());
+    Frame frame{Eigen::Vector3d::Constant(INFINITY), Eigen::Vector3d::Constant(-INFINITY),
+                *lowest, *highest};
+    for (const Gaussian<3>& g : seen) {
+        const Eigen::Vector3d reach = sigmas * g.covariance.diagonal().array().sqrt();
+        frame.low = frame.low.cwiseMin(g.mean - reach);
+        frame.high = frame.high.cwiseMax(g.mean + reach);
+    }
+    return frame;
 }
 
-struct Extent {
-    Eigen::AlignedBox3d view;  // of the means and their ellipsoids, in view axes
-    double lowest = std::numeric_limits<double>::infinity(),
-           highest = -lowest;  // z of the means
-};
+/// The ray of a pixel, d from the mean, meets the ellipsoid d^T P d = sigmas^2 where a
+/// quadratic in depth says.
+void drawEllipsoid(const Gaussian<3>& g, double height_m, double sigmas, Canvas& canvas) {
+    const Eigen::Matrix3d P =
+        Eigen::LLT<Eigen::Matrix3d>(g.covariance).solve(Eigen::Matrix3d::Identity());
+    const Canvas::Patch patch = canvas.patch(g.mean, sigmas * std::sqrt(g.covariance(0, 0)),
+                                             sigmas * std::sqrt(g.covariance(1, 1)));
+    for (int y = patch.y0; y <= patch.y1; ++y)
+        for (int x = patch.x0; x <= patch.x1; ++x) {
+            const Eigen::Vector2d d = canvas.offset(x, y, g.mean);
+            const double a = P(2, 2);
+            const double b = P(0, 2) * d.x() + P(1, 2) * d.y();
+            const double c = d.dot(P.topLeftCorner<2, 2>() * d) - sigmas * sigmas;
+            const double discriminant = b * b - a * c;
+            if (!(discriminant >= 0)) continue;
+            const double dz = (-b - std::sqrt(discriminant)) / a;
+            const Eigen::Vector3d normal =
+                (P * Eigen::Vector3d(d.x(), d.y(), dz)).normalized();
+            canvas.put(x, y, g.mean.z() + dz, height_m, brightnessOf(normal));
+        }
+}
 
-class Canvas {
- public:
-    Canvas(const Extent& extent, const View& view) : extent_(extent), sigmas_(view.sigmas) {
-        const Eigen::Vector3d size = extent.view.sizes();
-        picture_.width_px = view.width_px;
-        scale_ = view.width_px * (1 - 2 * kMargin) / std::max(size.x(), 1e-6);
-        const double margin = kMargin * view.width_px;
-        scale_ = std::min(scale_, (kMaxHeight_px - 2 * margin) / std::max(size.y(), 1e-6));
-        picture_.height_px = std::max(1, int(std::ceil(size.y() * scale_ + 2 * margin)));
-        const std::size_t pixels = std::size_t(picture_.width_px) * picture_.height_px;
-        picture_.rgb.assign(3 * pixels, 255);
-        depth_.assign(pixels, std::numeric_limits<double>::infinity());
-        left_ = extent.view.center().x() - 0.5 * picture_.width_px / scale_;
-        top_ = extent.view.center().y() - 0.5 * picture_.height_px / scale_;
-        nearest_ = extent.view.min().z() + view.cut * size.z();
-    }
+/// Draws the sides of a cube that face the viewer: a ray enters it where it has crossed the
+/// first plane of each of the three pairs.
+void drawCube(const Eigen::Vector3d& centre_map, const Eigen::Matrix3d& axes, double half_m,
+              Canvas& canvas) {
+    const Eigen::Vector3d centre = axes * centre_map;
+    const Eigen::Vector3d reach = half_m * axes.cwiseAbs().rowwise().sum();
+    const Eigen::Vector3d away = axes.row(2);
+    const Canvas::Patch patch = canvas.patch(centre, reach.x(), reach.y());
+    for (int y = patch.y0; y <= patch.y1; ++y)
+        for (int x = patch.x0; x <= patch.x1; ++x) {
+            const Eigen::Vector2d d = canvas.offset(x, y, centre);
+            const Eigen::Vector3d start = axes.topRows<2>().transpose() * d;
+            double enter = -INFINITY, leave = INFINITY;
+            int side = 0;
+            for (int k = 0; k < 3; ++k) {
+                if (std::abs(away[k]) < 1e-9) {
+                    if (std::abs(start[k]) > half_m) leave = -INFINITY;
+                    continue;
+                }
+                const double middle = -start[k] / away[k];
+                const double width = half_m / std::abs(away[k]);
+                if (middle - width > enter) {
+                    enter = middle - width;
+                    side = k;
+                }
+                leave = std::min(leave, middle + width);
+            }
+            if (enter > leave) continue;
+            const Eigen::Vector3d normal = axes.col(side) * (away[side] > 0 ? -1.0 : 1.0);
+            canvas.put(x, y, centre.z() + enter, centre_map.z(), brightnessOf(normal));
+        }
+}
 
-    void draw(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance,
-              const Rgb& colour) {
-        const double reach_x = sigmas_ * std::sqrt(covariance(0, 0));
-        const double reach_y = sigmas_ * std::sqrt(covariance(1, 1));
-        const Eigen::Matrix3d precision = covariance.inverse();
-        const int x0 = std::max(0, int((mean.x() - reach_x - left_) * scale_));
-        const int x1 =
-            std::min(picture_.width_px - 1, int((mean.x() + reach_x - left_) * scale_));
-        const int y0 = std::max(0, int((mean.y() - reach_y - top_) * scale_));
-        const int y1 =
-            std::min(picture_.height_px - 1, int((mean.y() + reach_y - top_) * scale_));
-        for (int y = y0; y <= y1; ++y)
-            for (int x = x0; x <= x1; ++x)
-                shade(x, y,
-                      {left_ + (x + 0.5) / scale_ - mean.x(),
-                       top_ + (y + 0.5) / scale_ - mean.y()},
-                      mean.z(), precision, colour);
-    }
+/// Between the values that a share of all lie below, and above.
+std::pair<double, double> innerRange(std::vector<double> values, double strayShare) {
+    const auto stray =
+        static_cast<std::ptrdiff_t>(strayShare * static_cast<double>(values.size()));
+    std::nth_element(values.begin(), values.begin() + stray, values.end());
+    const double low = values[static_cast<std::size_t>(stray)];
+    std::nth_element(values.begin(), values.end() - 1 - stray, values.end());
+    return {low, *(values.end() - 1 - stray)};
+}
 
-    Picture take() { return std::move(picture_); }
-
- private:
-    /// The pixel's ray, `offset` from the mean, meets the ellipsoid d^T P d = sigmas^2
-    /// where a quadratic in depth says.
-    void shade(int x, int y, const Eigen::Vector2d& offset, double meanDepth,
-               const Eigen::Matrix3d& P, const Rgb& colour) {
-        const double a = P(2, 2);
-        const double b = P(0, 2) * offset.x() + P(1, 2) * offset.y();
-        const double c = offset.dot(P.topLeftCorner<2, 2>() * offset) - sigmas_ * sigmas_;
-        const double discriminant = b * b - a * c;
-        if (discriminant < 0) return;
-        const double dz = (-b - std::sqrt(discriminant)) / a;
-        const std::size_t pixel = std::size_t(y) * picture_.width_px + x;
-        if (meanDepth + dz < nearest_ || meanDepth + dz >= depth_[pixel]) return;
-        depth_[pixel] = meanDepth + dz;
-        const Eigen::Vector3d normal =
-            (P * Eigen::Vector3d(offset.x(), offset.y(), dz)).normalized();
-        static const Eigen::Vector3d light = Eigen::Vector3d(-0.4, -0.6, -0.8).normalized();
-        const double brightness = 0.45 + 0.55 * std::max(0.0, normal.dot(light));
-        for (std::size_t k = 0; k < 3; ++k)
-            picture_.rgb[3 * pixel + k] = static_cast<std::uint8_t>(
-                255 * std::clamp(brightness * colour[k], 0.0, 1.0));
-    }
-
-    Extent extent_;
-    double sigmas_;
-    double scale_ = 1, left_ = 0, top_ = 0, nearest_ = 0;
-    Picture picture_;
-    std::vector<double> depth_;
-};
+/// That range and a third of its length more on either side, within that of all values.
+std::pair<double, double> widenedRange(const std::vector<double>& values,
+                                       double strayShare) {
+    const auto [low, high] = innerRange(values, strayShare);
+    const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+    const double margin = (high - low) / 3.0;
+    return {std::max(low - margin, *lowest), std::min(high + margin, *highest)};
+}
 
 }  // namespace
 
-Picture renderEllipsoids(const Mixture<3>& mixture, const View& view) {
-    if (mixture.empty()) throw std::invalid_argument("an empty map has no picture");
-    requireInRange("pitch_deg", view.pitch_deg, -90.0, 90.0);
-    requireInRange("sigmas", view.sigmas, 0.1, 10.0);
-    requireInRange("cut", view.cut, 0.0, 0.99);
-    requireInRange("width_px", view.width_px, 16, 8192);
+Frame frameOf(const Points& points_map, const View& view, double strayShare) {
+    requireValid(view);
+    if (!(strayShare >= 0.0 && strayShare < 0.5))
+        throw std::invalid_argument("strayShare must be in [0, 0.5)");
     const Eigen::Matrix3d axes = viewAxes(view);
+    std::array<std::vector<double>, 4> coordinates;  // right, down, away, up
+    for (const Eigen::Vector3d& p : points_map) {
+        if (!p.allFinite()) continue;
+        const Eigen::Vector3d seen = axes * p;
+        for (int k = 0; k < 3; ++k)
+            coordinates[static_cast<std::size_t>(k)].push_back(seen[k]);
+        coordinates[3].push_back(p.z());
+    }
+    if (coordinates[0].empty())
+        throw std::invalid_argument("there are no points to make a picture of");
+    Frame frame{};
+    for (int k = 0; k < 3; ++k)
+        std::tie(frame.low[k], frame.high[k]) =
+            widenedRange(coordinates[static_cast<std::size_t>(k)], strayShare);
+    std::tie(frame.lowest_m, frame.highest_m) = innerRange(coordinates[3], strayShare);
+    return frame;
+}
 
+Picture renderEllipsoids(const Mixture<3>& mixture, const View& view,
+                         const Eigen::Vector3d& origin_map,
+                         const std::optional<Frame>& frame) {
+    requireValid(view);
+    const Eigen::Matrix3d axes = viewAxes(view);
     std::vector<Gaussian<3>> seen;
+    std::vector<double> heights_m;
     seen.reserve(mixture.size());
-    Extent extent;
+    heights_m.reserve(mixture.size());
     for (std::size_t i = 0; i < mixture.size(); ++i) {
         Gaussian<3> g = mixture[i];
-        extent.lowest = std::min(extent.lowest, g.mean.z());
-        extent.highest = std::max(extent.highest, g.mean.z());
-        g.mean = axes * g.mean;
+        const Eigen::Vector3d mean_map = origin_map + g.mean;
+        heights_m.push_back(mean_map.z());
+        g.mean = axes * mean_map;
         g.covariance = axes * g.covariance * axes.transpose();
-        const Eigen::Vector3d reach = view.sigmas * g.covariance.diagonal().array().sqrt();
-        extent.view.extend(Eigen::Vector3d(g.mean - reach));
-        extent.view.extend(Eigen::Vector3d(g.mean + reach));
         seen.push_back(g);
     }
-    Canvas canvas(extent, view);
-    const double span = std::max(extent.highest - extent.lowest, 1e-6);
+    Canvas canvas(frame ? *frame : frameOfEllipsoids(seen, heights_m, view.sigmas), view);
     for (std::size_t i = 0; i < seen.size(); ++i)
-        canvas.draw(seen[i].mean, seen[i].covariance,
-                    heightColour((mixture.mean[2][i] - extent.lowest) / span));
+        drawEllipsoid(seen[i], heights_m[i], view.sigmas, canvas);
     return canvas.take();
 }
 
-void writePng(const Picture& picture, const std::string& file) {
-    mrpt::img::CImage image(static_cast<unsigned>(picture.width_px),
-                            static_cast<unsigned>(picture.height_px), mrpt::img::CH_RGB);
-    for (int y = 0; y < picture.height_px; ++y)
-        for (int x = 0; x < picture.width_px; ++x) {
-            const std::uint8_t* rgb =
-                &picture.rgb[3 * (std::size_t(y) * picture.width_px + x)];
-            image.setPixel(x, y, mrpt::img::TColor(rgb[0], rgb[1], rgb[2]));
-        }
-    // The extension picks the format, so the temporary name keeps it.
-    const std::string partial = file + ".partial.png";
-    std::error_code error;
-    if (image.saveToFile(partial)) {
-        std::filesystem::rename(partial, file, error);
-        if (!error) return;
+Picture renderPoints(const Points& points_map, const View& view, const Frame& frame) {
+    constexpr double radius_px = 1.2;
+    requireValid(view);
+    const Eigen::Matrix3d axes = viewAxes(view);
+    Canvas canvas(frame, view);
+    const double radius_m = radius_px * canvas.metresPerPixel();
+    for (const Eigen::Vector3d& p : points_map) {
+        if (!p.allFinite()) continue;
+        const Eigen::Vector3d seen = axes * p;
+        const Canvas::Patch patch = canvas.patch(seen, radius_m, radius_m);
+        for (int y = patch.y0; y <= patch.y1; ++y)
+            for (int x = patch.x0; x <= patch.x1; ++x)
+                if (canvas.offset(x, y, seen).norm() <= radius_m)
+                    canvas.put(x, y, seen.z(), p.z(), 1.0);
     }
-    std::filesystem::remove(partial, error);
-    throw std::runtime_error(file + ": cannot be written");
+    canvas.shadeGaps(8.0 * canvas.metresPerPixel());
+    return canvas.take();
+}
+
+Picture renderVoxels(const Points& centres_map, double edge_m, const View& view,
+                     const Frame& frame) {
+    requireValid(view);
+    if (!(edge_m > 0.0)) throw std::invalid_argument("edge_m must be positive");
+    const Eigen::Matrix3d axes = viewAxes(view);
+    Canvas canvas(frame, view);
+    // So large that none falls between the pixels.
+    const double half_m = std::max(0.5 * edge_m, 0.75 * canvas.metresPerPixel());
+    for (const Eigen::Vector3d& centre : centres_map)
+        if (centre.allFinite()) drawCube(centre, axes, half_m, canvas);
+    return canvas.take();
 }
 
 }  // namespace hgmm::evaluation

@@ -2,183 +2,184 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <limits>
-#include <stdexcept>
+#include <iterator>
+
+#include "markup.h"
+#include "svg_axes.h"
 
 namespace hgmm::evaluation {
 namespace {
 
-constexpr double kWidth = 720, kHeight = 440;
-constexpr double kLeft = 80, kRight = 20, kTop = 40, kBottom = 60;  // margins
-constexpr const char* kColours[] = {"#0b5fa5", "#c4421a", "#2e7d32", "#6a3d9a",
-                                    "#8d6e00", "#00838f", "#ad1457", "#455a64"};
+/// Okabe and Ito (2008), Color Universal Design, without the yellow, which is too light for
+/// lines on white.
+constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                    "#e69f00", "#56b4e9", "#000000"};
+// Numbers of colours, dashes and marks have no factor in common: many curves differ.
+constexpr const char* kDashes[] = {"", "7 3", "2 3", "9 3 2 3", "14 4"};
+constexpr int kMarks = 6;
 
-std::string number(double v) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", v);
-    return text;
-}
-
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else
-            out += c;
-    }
-    return out;
-}
-
-std::string textAt(double x, double y, const char* anchor, const std::string& text,
-                   const std::string& more = "") {
-    return "<text x='" + number(x) + "' y='" + number(y) + "' text-anchor='" + anchor +
-           "' " + more + ">" + escaped(text) + "</text>\n";
-}
-
-/// One axis: its data range and where that lies on the page. Logarithmic ones have the
-/// decimal logarithm of the data as their range.
-struct Axis {
-    double low, high;            // data
-    double pixelLow, pixelHigh;  // page
-    bool logarithmic;
-
-    double toPixel(double v) const {
-        const double at = logarithmic ? std::log10(v) : v;
-        return pixelLow + (at - low) / (high - low) * (pixelHigh - pixelLow);
-    }
-
-    /// The decades, and between few of them 2 and 5 as well.
-    std::vector<double> logarithmicTicks() const {
-        std::vector<double> values;
-        const bool few = high - low < 2.5;
-        for (double decade = std::floor(low); decade <= high; ++decade)
-            for (const double factor : {1.0, 2.0, 5.0}) {
-                const double v = factor * std::pow(10.0, decade);
-                if (factor > 1.0 && !few) continue;
-                if (std::log10(v) >= low && std::log10(v) <= high) values.push_back(v);
-            }
-        return values;
-    }
-
-    /// Four to ten round values.
-    std::vector<double> ticks() const {
-        if (logarithmic) return logarithmicTicks();
-        const double raw = (high - low) / 10.0;
-        const double decade = std::pow(10.0, std::floor(std::log10(raw)));
-        double step = 10.0 * decade;
-        for (const double factor : {5.0, 2.0, 1.0})
-            if (factor * decade >= raw) step = factor * decade;
-        std::vector<double> values;
-        for (double k = std::ceil(low / step); k * step <= high + 1e-9 * step; ++k)
-            values.push_back(k * step + 0.0);  // no -0
-        return values;
-    }
+struct Style {
+    std::string colour;
+    std::string dash;
+    std::size_t mark = 0;
+    double width = 1.0;
 };
 
-Axis fitAxis(const Plot& plot, bool vertical) {
-    const bool logarithmic = plot.xLogarithmic && !vertical;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Curve& curve : plot.curves) {
-        for (const auto& [x, y] : curve.points) {
-            const double v = vertical ? y : logarithmic ? std::log10(x) : x;
-            if (!std::isfinite(v))
-                throw std::invalid_argument("toSvg: not finite: " + curve.label);
-            low = std::min(low, v);
-            high = std::max(high, v);
-        }
-    }
-    if (low > high) throw std::invalid_argument("toSvg: there is nothing to plot");
-    const double margin =
-        high > low ? 0.03 * (high - low) : std::max(1.0, 0.1 * std::abs(low));
-    low -= margin;
-    high += margin;
-    if (vertical) return {low, high, kHeight - kBottom, kTop, false};
-    return {low, high, kLeft, kWidth - kRight, logarithmic};
+Style styleOf(const Curve& curve, std::size_t place) {
+    if (curve.label.empty()) return {"#999999", "", 0, curve.emphasised ? 3.0 : 1.0};
+    return {kColours[place % std::size(kColours)], kDashes[place % std::size(kDashes)],
+            place % kMarks, curve.emphasised ? 3.0 : 1.6};
 }
 
-std::string drawAxes(const Plot& plot, const Axis& x, const Axis& y) {
+/// The corners of a mark around (x, y), and whether it is closed.
+std::string polygon(double x, double y, std::initializer_list<std::pair<int, int>> corners,
+                    const std::string& attributes) {
+    std::string svg = "<polygon" + attributes + " points='";
+    for (const auto& [dx, dy] : corners) svg += number(x + dx) + "," + number(y + dy) + " ";
+    return svg + "'/>\n";
+}
+
+/// Filled marks are data, hollow ones only tell lines apart.
+std::string drawMark(const Style& style, double x, double y, bool filled) {
+    const std::string attributes = " fill='" + (filled ? style.colour : "white") +
+                                   "' stroke='" + style.colour + "' stroke-width='1.5'";
+    switch (style.mark) {
+        case 0:
+            return "<circle r='4'" + attributes + " cx='" + number(x) + "' cy='" +
+                   number(y) + "'/>\n";
+        case 1:
+            return polygon(x, y, {{-4, -4}, {4, -4}, {4, 4}, {-4, 4}}, attributes);
+        case 2:
+            return polygon(x, y, {{0, -5}, {5, 4}, {-5, 4}}, attributes);
+        case 3:
+            return polygon(x, y, {{0, -6}, {5, 0}, {0, 6}, {-5, 0}}, attributes);
+        case 4:
+            return polygon(x, y, {{0, 5}, {5, -4}, {-5, -4}}, attributes);
+        default:
+            return polygon(x, y,
+                           {{-2, -5},
+                            {2, -5},
+                            {2, -2},
+                            {5, -2},
+                            {5, 2},
+                            {2, 2},
+                            {2, 5},
+                            {-2, 5},
+                            {-2, 2},
+                            {-5, 2},
+                            {-5, -2},
+                            {-2, -2}},
+                           attributes);
+    }
+}
+
+std::string drawLine(const std::vector<std::pair<double, double>>& pixels,
+                     const Style& style) {
+    std::string svg = "<polyline fill='none' stroke='" + style.colour + "' stroke-width='" +
+                      number(style.width) + "'" +
+                      (style.dash.empty() ? "" : " stroke-dasharray='" + style.dash + "'") +
+                      " points='";
+    for (const auto& [x, y] : pixels) svg += number(x) + "," + number(y) + " ";
+    return svg + "'/>\n";
+}
+
+/// Hollow marks at equal distances along a line, shifted from curve to curve so that those
+/// of lines that coincide can all be seen.
+std::string drawKeyMarks(const std::vector<std::pair<double, double>>& pixels,
+                         const Style& style, std::size_t place) {
+    constexpr int marks = 5;
+    double length = 0.0;
+    for (std::size_t i = 1; i < pixels.size(); ++i)
+        length += std::hypot(pixels[i].first - pixels[i - 1].first,
+                             pixels[i].second - pixels[i - 1].second);
+    const double step = length / marks;
+    double next = step * static_cast<double>(2 * (place % 8) + 1) / 16.0, walked = 0.0;
     std::string svg;
-    const double bottom = kHeight - kBottom, right = kWidth - kRight;
-    for (const double v : x.ticks()) {
-        const std::string at = number(x.toPixel(v));
-        svg += "<line x1='" + at + "' x2='" + at + "' y1='" + number(kTop) + "' y2='" +
-               number(bottom) + "' stroke='#dddddd'/>\n";
-        svg += textAt(x.toPixel(v), bottom + 18, "middle", number(v));
+    for (std::size_t i = 1; i < pixels.size(); ++i) {
+        const auto [x, y] = pixels[i - 1];
+        const double dx = pixels[i].first - x, dy = pixels[i].second - y;
+        const double segment = std::hypot(dx, dy);
+        for (; segment > 0.0 && next <= walked + segment; next += step) {
+            const double share = (next - walked) / segment;
+            svg += drawMark(style, x + share * dx, y + share * dy, false);
+        }
+        walked += segment;
     }
-    for (const double v : y.ticks()) {
-        const std::string at = number(y.toPixel(v));
-        svg += "<line y1='" + at + "' y2='" + at + "' x1='" + number(kLeft) + "' x2='" +
-               number(right) + "' stroke='#dddddd'/>\n";
-        svg += textAt(kLeft - 8, y.toPixel(v) + 4, "end", number(v));
-    }
-    svg += "<rect x='" + number(kLeft) + "' y='" + number(kTop) + "' width='" +
-           number(right - kLeft) + "' height='" + number(bottom - kTop) +
-           "' fill='none' stroke='#444444'/>\n";
-    svg += textAt(0.5 * (kLeft + right), kHeight - 16, "middle", plot.xLabel);
-    svg += textAt(
-        0, 0, "middle", plot.yLabel,
-        "transform='translate(20 " + number(0.5 * (kTop + bottom)) + ") rotate(-90)'");
-    return svg +
-           textAt(0.5 * (kLeft + right), 24, "middle", plot.title, "font-weight='bold'");
-}
-
-std::string drawCurve(const Curve& curve, const Axis& x, const Axis& y,
-                      const std::string& colour) {
-    std::string svg = "<polyline fill='none' stroke='" + colour + "' stroke-width='" +
-                      (curve.emphasised ? "3" : "1") + "' stroke-opacity='" +
-                      (curve.emphasised ? "1" : "0.6") + "' points='";
-    for (const auto& [px, py] : curve.points)
-        svg += number(x.toPixel(px)) + "," + number(y.toPixel(py)) + " ";
-    svg += "'/>\n";
-    if (!curve.markers) return svg;
-    for (const auto& [px, py] : curve.points)
-        svg += "<circle r='4' fill='" + colour + "' cx='" + number(x.toPixel(px)) +
-               "' cy='" + number(y.toPixel(py)) + "'/>\n";
     return svg;
 }
 
-/// The label of a curve, in the line `place` of the legend.
-std::string drawLabel(const Plot& plot, const Curve& curve, std::size_t place,
-                      const std::string& colour) {
-    constexpr double lineHeight = 18, inset = 10;
-    const auto labelled = std::count_if(plot.curves.begin(), plot.curves.end(),
-                                        [](const Curve& c) { return !c.label.empty(); });
-    const double height = lineHeight * static_cast<double>(labelled - 1);
-    const double first =
-        plot.legend == Legend::topRight ? kTop + 20 : kHeight - kBottom - 12 - height;
-    const bool left = plot.legend == Legend::bottomLeft;
-    return textAt(left ? kLeft + inset : kWidth - kRight - inset,
-                  first + lineHeight * static_cast<double>(place), left ? "start" : "end",
-                  curve.label, "fill='" + colour + "'");
+std::string drawCurve(const Curve& curve, const Axis& x, const Axis& y, const Style& style,
+                      std::size_t place) {
+    std::vector<std::pair<double, double>> pixels;
+    pixels.reserve(curve.points.size());
+    for (const auto& [px, py] : curve.points)
+        pixels.emplace_back(x.toPixel(px), y.toPixel(py));
+    std::string svg = "<g><title>" + escaped(curve.label) + "</title>\n";
+    if (curve.label.empty()) svg = "<g>\n";
+    if (pixels.size() > 1) svg += drawLine(pixels, style);
+    if (curve.markers)
+        for (const auto& [px, py] : pixels) svg += drawMark(style, px, py, true);
+    else if (!curve.label.empty())
+        svg += drawKeyMarks(pixels, style, place);
+    return svg + "</g>\n";
+}
+
+/// Columns of the legend: one if a label would not fit in two.
+std::size_t legendColumns(const Plot& plot) {
+    constexpr std::size_t longest = 24;
+    const bool fits = std::all_of(plot.curves.begin(), plot.curves.end(),
+                                  [](const Curve& c) { return c.label.size() <= longest; });
+    return fits ? 2 : 1;
+}
+
+/// The label of a curve, in the given place of the legend, with a piece of its line.
+std::string drawLabel(const Curve& curve, std::size_t place, std::size_t columns,
+                      const Style& style) {
+    constexpr double sample = 36, column = 236;
+    const double x = 14 + column * static_cast<double>(place % columns);
+    const double y =
+        layout::legend + layout::legendRow * static_cast<double>(place / columns);
+    return drawLine({{x, y}, {x + sample, y}}, style) +
+           drawMark(style, x + 0.5 * sample, y, curve.markers) +
+           textAt(x + sample + 6, y + 5, "start", curve.label);
+}
+
+std::string draw(const Plot& plot, const std::string& attributes) {
+    const Axis x = fitAxis(plot, false), y = fitAxis(plot, true);
+    const auto labelled = static_cast<std::size_t>(
+        std::count_if(plot.curves.begin(), plot.curves.end(),
+                      [](const Curve& c) { return !c.label.empty(); }));
+    const std::size_t columns = legendColumns(plot);
+    const std::size_t rows = (labelled + columns - 1) / columns;
+    const double height = layout::legend + layout::legendRow * static_cast<double>(rows);
+    std::string svg = "<svg" + attributes + " viewBox='0 0 " + number(layout::width) + " " +
+                      number(height) + "' font-family='sans-serif' font-size='" +
+                      number(layout::fontSize) + "'>\n" +
+                      "<rect width='100%' height='100%' fill='white'/>\n" +
+                      drawAxes(plot, x, y);
+    std::string backdrop, thin, thick, legend;
+    std::size_t next = 0;
+    for (const Curve& curve : plot.curves) {
+        const std::size_t place = next;
+        next += curve.label.empty() ? 0 : 1;
+        const Style style = styleOf(curve, curve.style.value_or(place));
+        std::string& layer = curve.emphasised      ? thick
+                             : curve.label.empty() ? backdrop
+                                                   : thin;
+        layer += drawCurve(curve, x, y, style, place);
+        if (!curve.label.empty()) legend += drawLabel(curve, place, columns, style);
+    }
+    return svg + backdrop + thin + thick + "<g>\n" + legend + "</g>\n</svg>\n";
 }
 
 }  // namespace
 
 std::string toSvg(const Plot& plot) {
-    const Axis x = fitAxis(plot, false), y = fitAxis(plot, true);
-    std::string svg =
-        "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 " + number(kWidth) + " " +
-        number(kHeight) + "' font-family='sans-serif' font-size='13'>\n" +
-        "<rect width='100%' height='100%' fill='white'/>\n" + drawAxes(plot, x, y);
-    // Unlabelled curves are a backdrop, in grey; labelled ones get a colour and a legend
-    // each.
-    for (const bool emphasised : {false, true}) {
-        std::size_t labelled = 0;
-        for (const Curve& curve : plot.curves) {
-            const std::size_t place = labelled;
-            labelled += curve.label.empty() ? 0 : 1;
-            if (curve.emphasised != emphasised) continue;
-            const std::string colour =
-                curve.label.empty() ? "#999999" : kColours[place % std::size(kColours)];
-            svg += drawCurve(curve, x, y, colour);
-            if (!curve.label.empty()) svg += drawLabel(plot, curve, place, colour);
-        }
-    }
-    return svg + "</svg>\n";
+    return draw(plot, " xmlns='http://www.w3.org/2000/svg'");
+}
+
+std::string toInlineSvg(const Plot& plot) {
+    return draw(plot, " role='img' aria-label='" + escaped(plot.title) + "'");
 }
 
 }  // namespace hgmm::evaluation

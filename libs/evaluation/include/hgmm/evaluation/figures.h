@@ -29,13 +29,20 @@ struct LevelFigures {
 struct MapFigures {
     std::string name;
     std::string className;
+    std::string source;                    ///< paper or library
+    Meaning meaning = Meaning::occupancy;  ///< of its answers
+    bool ranked = true;                    ///< whether it competes: its answers are
+                                           ///< probabilities of occupancy
     std::vector<std::pair<std::string, double>> options;
     std::optional<OccupancyFigures> occupancy;  ///< none without test points
     std::optional<double> logLikelihoodOfHits;  ///< [nat/point]; none without test points
     std::optional<double> likelihoodsPerSecond;
     std::optional<Reconstruction> reconstruction;  ///< none without test points
     Memory memory;
-    Timing scanTime_ms;                ///< of inserting alone
+    Timing scanTime_ms;             ///< of inserting alone
+    std::vector<double> insert_ms;  ///< of each mapping scan, in order
+    /// (mapping scans inserted, live bytes then), some 20 times over the run
+    std::vector<std::pair<std::size_t, std::size_t>> liveBytesOverRun;
     std::vector<LevelFigures> levels;  ///< [0] is the base; none for other kinds of maps
 };
 
@@ -62,6 +69,10 @@ constexpr std::size_t kModelPoints = 200000;
 /// as loaded back from its saved bytes, for these are what is counted as its size; live
 /// bytes are those of the map itself. What needs test points is left out if there are none.
 MapFigures evaluateMap(const Map& built, const TestPoints& testPoints, std::uint64_t seed);
+
+/// The surface model of a map alone, as loaded back from its saved bytes: test points are
+/// scored by its density, as thesis 3.4.1 does (Meaning::surfaceLikelihood).
+MapFigures evaluateSurface(const Map& built, const TestPoints& testPoints);
 
 /// The same for another kind of map.
 MapFigures evaluateBaseline(const Baseline& baseline, const TestPoints& testPoints);

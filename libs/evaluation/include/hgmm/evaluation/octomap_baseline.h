@@ -13,6 +13,7 @@ class OctomapBaseline : public Baseline {
     explicit OctomapBaseline(double resolution_m);
 
     std::string className() const override { return "mrpt::maps::COctoMap"; }
+    std::string source() const override;
     std::vector<std::pair<std::string, double>> options() const override;
     void insert(const Scan& scan) override;
     void query(const Eigen::Vector3d* points_map, std::size_t n,

@@ -1,0 +1,128 @@
+#include "studies.h"
+
+#include <algorithm>
+
+#include "comparison_studies.h"
+#include "fidelity_study.h"
+#include "format.h"
+#include "free_space_study.h"
+#include "incremental_study.h"
+#include "map_setup.h"
+#include "regression_study.h"
+#include "room_study.h"
+#include "voxel_study.h"
+
+namespace replay {
+namespace {
+
+using hgmm::evaluation::Recording;
+using hgmm::evaluation::RecordingOptions;
+using Needs = Study::Needs;
+
+/// For studies that read a recording once.
+template <class Run>
+auto once(Run run) {
+    return [run](Recording& recording, const RecordingOptions&, const Options& options) {
+        run(recording, options);
+    };
+}
+
+std::vector<Study> makeStudies() {
+    return {
+        {"fig3.2",
+         "estimated size of each scan's mixture, and its divergence as it is reduced",
+         Needs::recording,
+         once([](Recording& recording, const Options& options) {
+             fidelityStudy(recording, makeMap(options.config)->insertionOptions.params,
+                           options);
+         }),
+         {}},
+        {"fig3.5",
+         "ROC of the surface model's likelihood against NDT at three cell sizes",
+         Needs::testPoints,
+         once(ndtStudy),
+         {}},
+        {"fig3.8",
+         "voxels of 5 cm that each map holds occupied, as pictures",
+         Needs::testPoints,
+         once(voxelStudy),
+         {}},
+        {"incremental",
+         "held-out likelihood of the map against mixtures of as many components fitted to "
+         "all scans at once",
+         Needs::testPoints,
+         incrementalStudy,
+         {}},
+        {"fig4.1",
+         "ROC of occupancy against OctoMap, NDT-OM and GPOctoMap",
+         Needs::testPoints,
+         once(occupancyStudy),
+         {}},
+        {"fig4.2",
+         "accuracy, memory and divergence of the levels of the hierarchy",
+         Needs::testPoints,
+         once(levelsStudy),
+         {}},
+        {"table4.1",
+         "memory against OctoMap, NDT-OM and GPOctoMap",
+         Needs::recording,
+         once(memoryStudy),
+         {}},
+        {"fig4.5",
+         "variance of a noisy sine, by mixture and by Gaussian process; takes no LOG",
+         Needs::nothing,
+         {},
+         regressionStudy},
+        {"realtime",
+         "scans per second, from observation to updated map",
+         Needs::recording,
+         once(realtimeStudy),
+         {}},
+        {"free-space",
+         "both models of free space side by side; the thesis' own is slow on large maps: "
+         "begin with --to 50",
+         Needs::testPoints,
+         freeSpaceStudy,
+         {}},
+        {"room",
+         "shares of right answers in a noiseless box room; add noise with --range-noise S",
+         Needs::testScans,
+         roomStudy,
+         {}}};
+}
+
+const char* wordsFor(Needs needs) {
+    switch (needs) {
+        case Needs::testPoints:
+            return "; needs --split K or --holdout-points F";
+        case Needs::testScans:
+            return "; needs --split K";
+        case Needs::nothing:
+        case Needs::recording:
+            break;
+    }
+    return "";
+}
+
+}  // namespace
+
+const std::vector<Study>& studies() {
+    static const std::vector<Study> all = makeStudies();
+    return all;
+}
+
+const Study* findStudy(const std::string& name) {
+    const auto found = std::find_if(studies().begin(), studies().end(),
+                                    [&](const Study& study) { return study.name == name; });
+    return found == studies().end() ? nullptr : &*found;
+}
+
+std::string studyList() {
+    std::string text;
+    for (const Study& study : studies())
+        text += format("%-12s ", study.name.c_str()) + study.text + wordsFor(study.needs) +
+                "\n";
+    return text;
+}
+
+}  // namespace replay

@@ -1,0 +1,33 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "hgmm/evaluation/recording.h"
+#include "options.h"
+
+namespace replay {
+
+/// A question that one command answers.
+struct Study {
+    std::string name;
+    std::string text;  ///< what it does, for --list-studies
+    /// What it must be given.
+    enum class Needs { nothing, recording, testPoints, testScans } needs;
+    /// Empty for studies that need nothing: those are run by `alone`.
+    std::function<void(hgmm::evaluation::Recording&,
+                       const hgmm::evaluation::RecordingOptions&, const Options&)>
+        run;
+    std::function<void(const Options&)> alone;
+};
+
+/// All studies, in the order of the thesis.
+const std::vector<Study>& studies();
+
+/// Nothing if there is none of that name.
+const Study* findStudy(const std::string& name);
+
+/// What --list-studies prints.
+std::string studyList();
+
+}  // namespace replay
