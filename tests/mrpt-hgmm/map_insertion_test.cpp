@@ -90,19 +90,4 @@ TEST(MapInsertion, ClearAndCloneAndDescribe) {
     EXPECT_EQ(copy->likelihoodOptions.maxPoints, 7);
 }
 
-TEST(MapInsertion, MatchingSaysThatItIsNotAvailable) {
-    const CHGMMOccupancyMap map;
-    mrpt::tfest::TMatchingPairList pairs;
-    mrpt::maps::TMatchingExtraResults extra;
-    EXPECT_THROW(map.determineMatching2D(&map, {}, pairs, {}, extra), std::runtime_error);
-    EXPECT_THROW(map.determineMatching3D(&map, {}, pairs, {}, extra), std::runtime_error);
-    EXPECT_THROW(map.compute3DMatchingRatio(&map, {}, {}), std::runtime_error);
-    try {
-        map.squareDistanceToClosestCorrespondence(0, 0);
-        FAIL();
-    } catch (const std::runtime_error& e) {
-        EXPECT_NE(std::string(e.what()).find("not available"), std::string::npos);
-    }
-}
-
 }  // namespace

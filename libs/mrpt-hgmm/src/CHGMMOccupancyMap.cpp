@@ -24,6 +24,7 @@ MRPT_INITIALIZER(registerHgmmMap) {
 
 ::hgmm::Map& CHGMMOccupancyMap::model() {
     likelihood_.invalidate();
+    matching_.invalidate();
     return model_;
 }
 
@@ -118,6 +119,7 @@ bool CHGMMOccupancyMap::internal_canComputeObservationLikelihood(
 
 void CHGMMOccupancyMap::OnPostSuccesfulInsertObs(const mrpt::obs::CObservation&) {
     likelihood_.invalidate();
+    matching_.invalidate();
 }
 
 }  // namespace mrpt::maps

@@ -8,6 +8,7 @@
 
 #include "hgmm/map.h"
 #include "hgmm/mrpt_bridge/likelihood.h"
+#include "hgmm/mrpt_bridge/matching.h"
 #include "hgmm/mrpt_bridge/mrpt_compat.h"
 #include "hgmm/mrpt_bridge/render_params.h"
 
@@ -22,7 +23,7 @@ namespace mrpt::maps {
 ///
 /// Observations of the types listed at ::hgmm::mrpt_bridge::observationToScan can be
 /// inserted and have a likelihood. Const member functions may be called from several
-/// threads at once. Matching against other maps is not available yet.
+/// threads at once.
 class CHGMMOccupancyMap : public CMetricMap {
     DEFINE_SERIALIZABLE(CHGMMOccupancyMap, mrpt::maps)
 
@@ -141,23 +142,34 @@ class CHGMMOccupancyMap : public CMetricMap {
     /// Frees the points kept of the last observations.
     void auxParticleFilterCleanUp() override;
 
-    /// Not yet available: throws std::runtime_error.
+    /// Pairs the points of another map with this map's surfaces, as
+    /// ::hgmm::mrpt_bridge::SurfaceMatching says, in the horizontal plane: for maps of
+    /// planar lasers. mrpt::slam::CICP aligns scans with icpClassic by it (its
+    /// Levenberg-Marquardt demands a points map).
+    /// @param otherMap a CPointsMap, a map that holds exactly one CSimplePointsMap, or
+    /// another CHGMMOccupancyMap, which is matched by its components' means
+    /// @param otherMapPose pose of the other map in this one's frame
+    /// @throws std::runtime_error for maps of other classes and nullptr
+    /// @throws std::invalid_argument if decimation_other_map_points is 0 or not above
+    /// offset_other_map_points.
     void determineMatching2D(const CMetricMap* otherMap,
                              const mrpt::poses::CPose2D& otherMapPose,
                              mrpt::tfest::TMatchingPairList& correspondences,
                              const TMatchingParams& params,
                              TMatchingExtraResults& extraResults) const override;
-    /// Not yet available: throws std::runtime_error.
+    /// As determineMatching2D, in space.
     void determineMatching3D(const CMetricMap* otherMap,
                              const mrpt::poses::CPose3D& otherMapPose,
                              mrpt::tfest::TMatchingPairList& correspondences,
                              const TMatchingParams& params,
                              TMatchingExtraResults& extraResults) const override;
-    /// Not yet available: throws std::runtime_error.
+    /// Share of the other map's points, in [0, 1], that are less than params.maxDistForCorr
+    /// from a surface; otherwise as determineMatching3D.
     float compute3DMatchingRatio(const CMetricMap* otherMap,
                                  const mrpt::poses::CPose3D& otherMapPose,
                                  const TMatchingRatioParams& params) const override;
-    /// Not yet available: throws std::runtime_error.
+    /// Squared horizontal distance to the nearest surface [m^2], infinity if the map is
+    /// empty or the point not finite.
     float squareDistanceToClosestCorrespondence(float x0, float y0) const override;
     /// @}
 
@@ -178,6 +190,7 @@ class CHGMMOccupancyMap : public CMetricMap {
     /// files are small.
     ::hgmm::Encoding encoding_ = ::hgmm::Encoding::exact;
     ::hgmm::mrpt_bridge::ObservationLikelihood likelihood_;
+    ::hgmm::mrpt_bridge::SurfaceMatching matching_;
 
     MAP_DEFINITION_START(CHGMMOccupancyMap)
     /// Saved map to start from, if not empty. The model comes from this file, all options

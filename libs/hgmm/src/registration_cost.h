@@ -1,0 +1,44 @@
+#pragma once
+#include <Eigen/Core>
+
+namespace hgmm {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// -exp(-1/2 mu^T (C + S)^-1 mu), summed over pairs of components, with derivatives by
+/// (w, v), the rotation exp(w) about the source's centre and the translation v, at zero.
+struct CostSums {
+    double cost = 0.0;
+    Vector6d gradient = Vector6d::Zero();
+    Matrix6d hessian = Matrix6d::Zero();
+    Matrix6d gaussNewton = Matrix6d::Zero();  ///< its positive semi-definite part
+    /// Sum of the pairs' costs over the squares of their widths, negated: the information
+    /// [1/m^2] that there would be in a direction if all surfaces faced it.
+    double facing = 0.0;
+
+    CostSums& operator+=(const CostSums& o);
+};
+
+/// A source component as it lies in the target's axes, and the target component beside it.
+struct ComponentPair {
+    Eigen::Vector3d arm;         ///< from the source's centre to the component's mean [m]
+    Eigen::Matrix3d covariance;  ///< C of the source component, rotated [m^2]
+    Eigen::Vector3d between;     ///< mu: source mean less target mean [m]
+    Eigen::Matrix3d widened;     ///< S of the target component [m^2]
+    double width_m = 1.0;        ///< that it was widened by
+};
+
+/// The cost of one pair, in [-1, 0].
+double pairCost(const ComponentPair& pair);
+
+/// Adds one pair; returns its gradient.
+Vector6d addPair(const ComponentPair& pair, CostSums& sums);
+
+/// exp(w) of a rotation vector [rad].
+Eigen::Matrix3d rotationOf(const Eigen::Vector3d& w);
+
+/// [a]x, the matrix of the cross product a x b.
+Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& a);
+
+}  // namespace hgmm

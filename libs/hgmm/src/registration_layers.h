@@ -1,0 +1,106 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "hgmm/component_index.h"
+#include "hgmm/mixture.h"
+#include "hgmm/scan.h"
+#include "registration_cost.h"
+
+namespace hgmm {
+
+/// The target components next to a source component, nearest first; kNobody where there are
+/// fewer.
+struct Neighbours {
+    static constexpr int kMost = 2;
+    static constexpr std::uint32_t kNobody = 0xFFFFFFFFU;
+
+    bool none() const { return target[0] == kNobody; }
+
+    std::uint32_t layer = 0;
+    std::array<std::uint32_t, kMost> target{kNobody, kNobody};
+};
+
+/// The source's components about their centre.
+struct RegistrationSource {
+    explicit RegistrationSource(const Mixture<3>& mixture);
+
+    std::size_t size() const { return mean.size(); }
+    /// Share of the support that has a neighbour, in [0, 1]; 0 for an empty source.
+    double shareOf(const std::vector<Neighbours>& neighbours) const;
+
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the means [m]
+    double lever_m = 0.0;                              ///< their rms distance from it, > 0
+    std::vector<Eigen::Vector3d> mean;                 ///< less the centre
+    std::vector<Eigen::Matrix3d> covariance;
+    std::vector<double> support;  ///< [count]
+};
+
+/// Principal axes of a mixture's finite components.
+struct Shapes {
+    explicit Shapes(const Mixture<3>& mixture);
+
+    std::vector<Gaussian<3>> components;
+    std::vector<Eigen::Matrix3d> axes;       ///< columns
+    std::vector<Eigen::Vector3d> variances;  ///< rising [m^2]
+};
+
+/// How far off the pose may still be: what a source component at distance r from the
+/// centre may be off by is hypot(width_m, angle_rad r).
+struct Reach {
+    double width_m = 0.0;
+    double angle_rad = 0.0;
+
+    double at(double distance_m) const {
+        return std::hypot(width_m, angle_rad * distance_m);
+    }
+};
+
+/// The target at one width.
+struct TargetLayer {
+    TargetLayer(const Shapes& target, double width);
+
+    double width_m;
+    ComponentIndex index;
+    std::vector<Eigen::Vector3d> mean;
+    std::vector<Eigen::Matrix3d> widened;
+};
+
+/// The target at widths that rise in octaves, and the sums of the cost. Sums are over
+/// chunks of fixed size, added in order.
+class TargetLayers {
+ public:
+    /// Narrow to wide: the first has the width of the finest stage.
+    void push(const Shapes& target, double width_m) {
+        layers_.emplace_back(target, width_m);
+    }
+
+    /// @param T_target_centre from the source's centred frame
+    std::vector<Neighbours> associate(const RegistrationSource& source, const Reach& reach,
+                                      const Pose& T_target_centre) const;
+
+    double cost(const RegistrationSource& source, const std::vector<Neighbours>& neighbours,
+                const Pose& T_target_centre) const;
+    CostSums sums(const RegistrationSource& source,
+                  const std::vector<Neighbours>& neighbours,
+                  const Pose& T_target_centre) const;
+    /// Sum over all components, source and target, of the outer product of their gradient:
+    /// how much the gradient would scatter if they were drawn anew.
+    Matrix6d gradientScatter(const RegistrationSource& source,
+                             const std::vector<Neighbours>& neighbours,
+                             const Pose& T_target_centre) const;
+
+ private:
+    std::uint32_t layerOf(double width_m) const;
+    template <typename Visitor>
+    void forEachPair(const RegistrationSource& source,
+                     const std::vector<Neighbours>& neighbours, const Pose& T_target_centre,
+                     std::size_t first, std::size_t last, Visitor&& visit) const;
+
+    std::vector<TargetLayer> layers_;
+};
+
+}  // namespace hgmm

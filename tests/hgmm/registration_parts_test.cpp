@@ -1,0 +1,118 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "../../libs/hgmm/src/registration_newton.h"
+#include "patches.h"
+
+namespace hgmm {
+namespace {
+
+using namespace testing;
+
+ComponentPair pairAt(const Vector6d& step, const ComponentPair& pair) {
+    const Eigen::Matrix3d R = rotationOf(step.head<3>());
+    ComponentPair moved = pair;
+    moved.arm = R * pair.arm;
+    moved.covariance = R * pair.covariance * R.transpose();
+    moved.between = pair.between + moved.arm - pair.arm + step.tail<3>();
+    return moved;
+}
+
+TEST(RegistrationParts, DerivativesAreThoseOfTheCost) {
+    std::mt19937_64 random(1);
+    for (int trial = 0; trial < 30; ++trial) {
+        ComponentPair pair;
+        pair.arm = 3 * uniform(random) * direction(random);
+        pair.between = uniform(random) * direction(random);
+        pair.covariance = patch(Eigen::Vector3d::Zero(), direction(random), 1.0).covariance;
+        pair.widened = patch(Eigen::Vector3d::Zero(), direction(random), 0.5).covariance +
+                       0.1 * Eigen::Matrix3d::Identity();
+        CostSums sums;
+        const Vector6d gradient = addPair(pair, sums);
+        EXPECT_DOUBLE_EQ(sums.cost, pairCost(pair));
+        EXPECT_EQ((gradient - sums.gradient).norm(), 0.0);
+        const double h = 1e-4;
+        const auto at = [&](int a, double da, int b, double db) {
+            Vector6d step = Vector6d::Zero();
+            step[a] += da;
+            step[b] += db;
+            return pairCost(pairAt(step, pair));
+        };
+        const double scale = sums.gaussNewton.norm();
+        for (int a = 0; a < 6; ++a) {
+            EXPECT_NEAR(sums.gradient[a], (at(a, h, a, 0) - at(a, -h, a, 0)) / (2 * h),
+                        1e-6 * scale);
+            for (int b = 0; b < 6; ++b)
+                EXPECT_NEAR(sums.hessian(a, b),
+                            (at(a, h, b, h) - at(a, h, b, -h) - at(a, -h, b, h) +
+                             at(a, -h, b, -h)) /
+                                (4 * h * h),
+                            1e-5 * scale)
+                    << a << ", " << b;
+        }
+        Vector6d any;
+        for (double& v : any) v = normal(random);
+        EXPECT_GE(any.dot(sums.gaussNewton * any), 0.0);
+    }
+}
+
+TEST(RegistrationParts, FindsTheNearestComponents) {
+    const Mixture<3> room = roomOfPatches(3);
+    const Shapes shapes(room);
+    for (const double width_m : {0.03, 0.4}) {
+        TargetLayers layers;
+        layers.push(shapes, width_m);
+        const RegistrationSource source(seenFrom(somePose(), roomOfPatches(4)));
+        Pose T = somePose();
+        T.t += T.R * source.centre;
+        const auto found = layers.associate(source, {width_m, 0.0}, T);
+        for (std::size_t i = 0; i < source.size(); ++i) {
+            std::vector<std::pair<double, std::uint32_t>> all;
+            for (std::uint32_t j = 0; j < room.size(); ++j) {
+                Eigen::Matrix3d S = room[j].covariance;
+                S.diagonal().array() += width_m * width_m;
+                const Eigen::Vector3d mu = T.R * source.mean[i] + T.t - room[j].mean;
+                all.emplace_back(mu.dot(S.llt().solve(mu)), j);
+            }
+            std::sort(all.begin(), all.end());
+            for (std::size_t k = 0; k < Neighbours::kMost; ++k) {
+                if (std::abs(all[k].first - 9.0) < 1e-2) continue;  // at the limit
+                const std::uint32_t j = found[i].target[k];
+                if (all[k].first > 9.0) {
+                    EXPECT_EQ(j, Neighbours::kNobody);
+                    continue;
+                }
+                ASSERT_NE(j, Neighbours::kNobody);
+                const auto same = std::find_if(
+                    all.begin(), all.end(), [j](const auto& d) { return d.second == j; });
+                EXPECT_NEAR(same->first, all[k].first, 1e-2 * (1 + all[k].first));
+            }
+        }
+    }
+}
+
+TEST(RegistrationParts, NoStepRaisesTheCost) {
+    std::mt19937_64 random(5);
+    const Mixture<3> room = roomOfPatches(3);
+    const RegistrationSource source(seenFrom(somePose(), roomOfPatches(4)));
+    for (const double width_m : {0.03, 0.2, 0.5}) {
+        TargetLayers layers;
+        layers.push(Shapes(room), width_m);
+        for (int trial = 0; trial < 10; ++trial) {
+            Pose T = somePose();
+            T.t += T.R * source.centre;
+            T = displaced(T, 2 * width_m, 0.3 * width_m, random);
+            const auto neighbours = layers.associate(source, {width_m, 0.0}, T);
+            const double before = layers.cost(source, neighbours, T);
+            runStage(layers, {width_m, 0.0}, source, T, 1);
+            EXPECT_LE(layers.cost(source, neighbours, T), before);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace hgmm
