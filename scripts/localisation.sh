@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# Localises a 2D laser robot from a uniform start, in separate runs of stock pf-localization,
+# which seeds itself from the clock: in our map, in MRPT's grid map and in its points map.
+#   scripts/localisation.sh [RUNS]        default: 20 runs of each
+# A run succeeds if it ends within 0.15 m and 1.5 deg of the published pose. Needs a build.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+runs=${1:-20}
+out=$PWD/build/localisation
+config=$PWD/share/mrpt-hgmm/config_files/pf-localization.ini
+stock=/usr/share/mrpt/config_files/pf-localization/localization_demo.ini
+rm -rf "$out"
+mkdir -p "$out"
+
+# Everything but the map is the same.
+cp "$config" "$out/hgmm.ini"
+sed '/^\[MetricMap\]/,$d' "$config" >"$out/grid.ini"
+sed -n '/^\[MetricMap\]/,$p' "$stock" >>"$out/grid.ini"
+sed '/^\[MetricMap\]/,$d' "$config" >"$out/points.ini"
+cat >>"$out/points.ini" <<'INI'
+[MetricMap]
+pointsMap_count = 1
+likelihoodMapSelection = -1
+[MetricMap_pointsMap_00_insertOpts]
+minDistBetweenLaserPoints = 0.05
+isPlanarMap = 1
+[MetricMap_pointsMap_00_likelihoodOpts]
+sigma_dist = 0.25
+max_corr_distance = 1
+decimation = 12
+INI
+
+localise() { # MAP RUN
+    local folder=$out/$1-$2
+    mkdir "$folder"
+    cd "$folder"
+    local start end
+    start=$(date +%s.%N)
+    LD_PRELOAD=$out/../lib/libmrpt-hgmm.so OMP_NUM_THREADS=1 \
+        pf-localization "../$1.ini" </dev/null >log 2>&1 || { echo "$1 failed"; return; }
+    end=$(date +%s.%N)
+    grep 'PDF estimation' log | tail -1 |
+        sed -E "s/.*estimation: \(([-0-9.]+),([-0-9.]+),([-0-9.]+)deg\).*/$1 \1 \2 \3/" |
+        awk -v from="$start" -v to="$end" '{
+            yaw = $4 - 4.8; if (yaw < 0) yaw = -yaw
+            printf("%s %.3f %.2f %.1f\n", $1, sqrt(($2 - 15.89) ^ 2 + ($3 + 10.0) ^ 2), yaw, to - from) }'
+}
+export -f localise
+export out
+for map in hgmm grid points; do
+    for run in $(seq "$runs"); do echo "$map $run"; done
+done | xargs -P "$(nproc)" -L 1 bash -c 'localise $0 $1' >"$out/runs.txt"
+
+echo '| map | runs | within 0.15 m, 1.5 deg | median error [m] | worst [m] | median seconds |'
+echo '| --- | --- | --- | --- | --- | --- |'
+for map in hgmm grid points; do
+    awk -v map=$map -v runs="$runs" '
+        function median(v, n,   i, j, t) {
+            for (i = 2; i <= n; ++i) for (j = i; j > 1 && v[j - 1] > v[j]; --j) { t = v[j]; v[j] = v[j - 1]; v[j - 1] = t }
+            return n % 2 ? v[(n + 1) / 2] : (v[n / 2] + v[n / 2 + 1]) / 2
+        }
+        $1 == map && NF == 4 { e[++n] = $2; s[n] = $4; good += $2 <= 0.15 && $3 <= 1.5; if ($2 > worst) worst = $2 }
+        END { printf("| %s | %d | %d | %.3f | %.3f | %.1f |\n", map, runs, good, median(e, n), worst, median(s, n)) }' \
+        "$out/runs.txt"
+done
