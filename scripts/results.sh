@@ -65,7 +65,7 @@ echo '| recording | map | AUC uniform | AUC near | balanced accuracy | TPR at 5 
 echo '| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |'
 replay rgbd_kitchen --split 10 --baselines octomap,grid3d,ndt-om,gpoctomap,ndt,nn
 replay livox_building --split 5 --baselines octomap,grid3d,ndt-om,gpoctomap,ndt,nn
-sim=(--holdout-points 0.2 --free-band 0,0.2 --baselines octomap:0.15,ndt-om:0.2,gpoctomap:0.1,nn)
+sim=(--holdout-points 0.2 --free-band 0,0.2 --baselines octomap:0.15,ndt-om:0.2,gpoctomap:0.15,nn)
 replay sim_structured "${sim[@]}"
 replay sim_unstructured "${sim[@]}"
 replay lidar16_room_sim --split 4 --baselines octomap:0.1

@@ -44,6 +44,17 @@ struct RayOptions {
 /// `hgmm-map raycast`: prints the first occupied point along a ray.
 void raycast(const RayOptions& options);
 
+struct MergeOptions {
+    std::string mapFile, otherFile, output;
+    std::vector<double> pose;  ///< of the other map in the first: x, y, z [m], yaw, pitch,
+                               ///< roll [deg]; empty: in the same frame
+    bool refine = false;       ///< by registration, from that pose
+};
+
+/// `hgmm-map merge`: writes the first map with what the other knows, and prints where the
+/// other was put. Throws std::runtime_error if a refined pose is not to be trusted.
+void merge(const MergeOptions& options);
+
 struct ExportOptions {
     std::string mapFile, output;
     std::string format;  ///< "ply", "3Dscene", "png", "bt", "ot" or "yaml"

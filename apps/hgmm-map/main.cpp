@@ -55,6 +55,24 @@ CLI::App* defineRaycast(CLI::App& app, maptool::RayOptions& casting) {
     return raycast;
 }
 
+CLI::App* defineMerge(CLI::App& app, maptool::MergeOptions& merging) {
+    CLI::App* merge = app.add_subcommand("merge", "Join two maps into one");
+    merge->add_option("A", merging.mapFile, "Saved map; its frame and options stay")
+        ->required();
+    merge->add_option("B", merging.otherFile, "Saved map to add")->required();
+    merge
+        ->add_option("--pose", merging.pose,
+                     "Where B's frame is in A's [m, deg]; otherwise it is A's")
+        ->delimiter(',')
+        ->expected(6)
+        ->type_name("X,Y,Z,YAW,PITCH,ROLL");
+    merge->add_flag("--refine", merging.refine,
+                    "Align B's surfaces with A's first; the pose may be half a metre and "
+                    "ten degrees off");
+    merge->add_option("-o", merging.output, "Output file (.hgmm)")->required();
+    return merge;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -71,6 +89,8 @@ int main(int argc, char** argv) {
     const CLI::App* query = defineQuery(app, querying);
     maptool::RayOptions casting;
     const CLI::App* raycast = defineRaycast(app, casting);
+    maptool::MergeOptions merging;
+    const CLI::App* merge = defineMerge(app, merging);
     maptool::ExportOptions exporting;
     const CLI::App* exports = maptool::defineExport(app, exporting);
 
@@ -84,6 +104,7 @@ int main(int argc, char** argv) {
         if (*sample) maptool::sample(sampling);
         if (*query) maptool::query(querying);
         if (*raycast) maptool::raycast(casting);
+        if (*merge) maptool::merge(merging);
         if (*exports) maptool::exportMap(exporting);
     } catch (const std::exception& e) {
         std::fprintf(stderr, "hgmm-map: %s\n", e.what());

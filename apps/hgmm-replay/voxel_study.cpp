@@ -8,6 +8,7 @@
 #include "hgmm/evaluation/occupied_voxels.h"
 #include "hgmm/evaluation/reconstruction.h"
 #include "hgmm/evaluation/render.h"
+#include "hgmm/mrpt_bridge/voxel_grid.h"
 #include "map_setup.h"
 #include "replay_scans.h"
 #include "report.h"
@@ -22,9 +23,24 @@ struct VoxelMap {
     Points voxels_map;  ///< centres [m]
 };
 
+/// Our map's own voxels: surfaces thinner than a voxel need not pass its centre.
+Points voxelsOf(const hgmm::Map& map, const VoxelGrid& grid) {
+    hgmm::mrpt_bridge::VoxelParams params;
+    params.resolution_m = grid.edge_m;
+    params.free = false;
+    const Eigen::Array3d low = grid.min_map,
+                         high = low + grid.edge_m * grid.count.array().cast<double>();
+    Points voxels_map;
+    for (const auto& voxel : hgmm::mrpt_bridge::voxelise(map, params).voxels)
+        if ((voxel.centre_map.array() > low).all() &&
+            (voxel.centre_map.array() < high).all())
+            voxels_map.push_back(voxel.centre_map);
+    return voxels_map;
+}
+
 std::vector<VoxelMap> voxelsOf(const Replayed& replayed, const VoxelGrid& grid) {
     std::vector<VoxelMap> maps;
-    maps.push_back({"hgmm", occupiedVoxels(queryOf(replayed.map->model()), grid)});
+    maps.push_back({"hgmm", voxelsOf(replayed.map->model(), grid)});
     for (const ReplayedBaseline& baseline : replayed.baselines) {
         const Baseline& map = *baseline.map;
         if (map.meaning() != Meaning::occupancy) continue;

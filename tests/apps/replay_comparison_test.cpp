@@ -19,7 +19,8 @@ class ReplayComparison : public ReplayFolder {
     }
     nlohmann::json namesOfMaps() const {
         nlohmann::json names;
-        for (const auto& map : metrics("report")["maps"]) names.push_back(map["name"]);
+        const nlohmann::json json = metrics("report");
+        for (const auto& map : json["maps"]) names.push_back(map["name"]);
         return names;
     }
 };
@@ -29,14 +30,15 @@ TEST_F(ReplayComparison, Fig35ScoresSurfacesByLikelihood) {
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_EQ(namesOfMaps(),
               nlohmann::json({"hgmm surface", "ndt:0.2", "ndt:0.4", "ndt:0.6"}));
-    for (const auto& map : metrics("report")["maps"]) {
+    const nlohmann::json json = metrics("report");
+    for (const auto& map : json["maps"]) {
         EXPECT_EQ(map["score"], "surface_likelihood");
         EXPECT_EQ(map["ranked"], false);
         EXPECT_GT(map["auc_uniform"], 0.9) << map["name"];
         EXPECT_FALSE(map.contains("brier")) << "a likelihood is no probability";
         expectHas(outcome.out, map["name"]);
     }
-    EXPECT_GT(metrics("report")["maps"][0]["auc_near"], 0.97);
+    EXPECT_GT(json["maps"][0]["auc_near"], 0.97);
     expectHas(content("report/roc.svg"), "hgmm surface");
 }
 
@@ -44,7 +46,8 @@ TEST_F(ReplayComparison, Fig41ComparesOccupancy) {
     ASSERT_EQ(study("fig4.1").exitCode, 0);
     EXPECT_EQ(namesOfMaps(),
               nlohmann::json({"hgmm", "octomap:0.3", "ndt-om:0.4", "gpoctomap:0.3"}));
-    for (const auto& map : metrics("report")["maps"]) {
+    const nlohmann::json json = metrics("report");
+    for (const auto& map : json["maps"]) {
         EXPECT_EQ(map["ranked"], true);
         EXPECT_GT(map["auc_uniform"], 0.8) << map["name"];
         EXPECT_FALSE(map["source"].get<std::string>().empty());
