@@ -101,6 +101,16 @@ TEST(SvgPlotStyle, DecadesAreEquallyHighOnALogarithmicAxis) {
     EXPECT_NE(toSvg(plot).find(">5</text>"), std::string::npos) << "a tick near one point";
 }
 
+TEST(SvgPlotStyle, LongNumbersAreShortened) {
+    Plot plot;
+    plot.xLogarithmic = true;
+    plot.curves.push_back({{{1e3, 0.0}, {2e6, 1.0}}, "map"});
+    const std::string svg = toSvg(plot);
+    for (const char* label : {">10000<", ">100k<", ">1M<"})
+        EXPECT_NE(svg.find(label), std::string::npos) << label;
+    EXPECT_EQ(svg.find("e+0"), std::string::npos);
+}
+
 TEST(SvgPlotStyle, WithinHtmlThereAreNoNameSpacesAndNoIds) {
     const Plot plot = manyCurves(2);
     EXPECT_NE(toSvg(plot).find(" xmlns='http://www.w3.org/2000/svg'"), std::string::npos);

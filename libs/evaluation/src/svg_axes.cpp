@@ -37,6 +37,13 @@ std::vector<std::string> lines(const std::string& title) {
     return result;
 }
 
+/// "100k" for 100000: long numbers fit neither beside nor below an axis.
+std::string tickLabel(double v) {
+    if (std::abs(v) >= 1e6) return number(v / 1e6) + "M";
+    if (std::abs(v) >= 1e5) return number(v / 1e3) + "k";
+    return number(v);
+}
+
 std::string drawTitle(const std::string& title) {
     constexpr double lineHeight = 17;
     const std::vector<std::string> rows = lines(title);
@@ -108,13 +115,13 @@ std::string drawAxes(const Plot& plot, const Axis& x, const Axis& y) {
         const std::string at = number(x.toPixel(v));
         svg += "<line x1='" + at + "' x2='" + at + "' y1='" + number(top) + "' y2='" +
                number(bottom) + "' stroke='#dddddd'/>\n";
-        svg += textAt(x.toPixel(v), bottom + 18, "middle", number(v));
+        svg += textAt(x.toPixel(v), bottom + 18, "middle", tickLabel(v));
     }
     for (const double v : y.ticks()) {
         const std::string at = number(y.toPixel(v));
         svg += "<line y1='" + at + "' y2='" + at + "' x1='" + number(left) + "' x2='" +
                number(right) + "' stroke='#dddddd'/>\n";
-        svg += textAt(left - 6, y.toPixel(v) + 5, "end", number(v));
+        svg += textAt(left - 6, y.toPixel(v) + 5, "end", tickLabel(v));
     }
     svg += "<rect x='" + number(left) + "' y='" + number(top) + "' width='" +
            number(right - left) + "' height='" + number(bottom - top) +

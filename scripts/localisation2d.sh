@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # Localises a 2D laser robot from a uniform start, in separate runs of stock pf-localization,
 # which seeds itself from the clock: in our map, in MRPT's grid map and in its points map.
-#   scripts/localisation.sh [RUNS]        default: 20 runs of each
+#   scripts/localisation2d.sh [RUNS [MAP...]]        default: 20 runs of hgmm, grid and points
 # A run succeeds if it ends within 0.15 m and 1.5 deg of the published pose. Needs a build.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 runs=${1:-20}
+maps=("${@:2}")
+[[ ${#maps[@]} -gt 0 ]] || maps=(hgmm grid points)
 out=$PWD/build/localisation
 config=$PWD/share/mrpt-hgmm/config_files/pf-localization.ini
 stock=/usr/share/mrpt/config_files/pf-localization/localization_demo.ini
@@ -47,13 +49,13 @@ localise() { # MAP RUN
 }
 export -f localise
 export out
-for map in hgmm grid points; do
+for map in "${maps[@]}"; do
     for run in $(seq "$runs"); do echo "$map $run"; done
 done | xargs -P "$(nproc)" -L 1 bash -c 'localise $0 $1' >"$out/runs.txt"
 
 echo '| map | runs | within 0.15 m, 1.5 deg | median error [m] | worst [m] | median seconds |'
 echo '| --- | --- | --- | --- | --- | --- |'
-for map in hgmm grid points; do
+for map in "${maps[@]}"; do
     awk -v map=$map -v runs="$runs" '
         function median(v, n,   i, j, t) {
             for (i = 2; i <= n; ++i) for (j = i; j > 1 && v[j - 1] > v[j]; --j) { t = v[j]; v[j] = v[j - 1]; v[j - 1] = t }
