@@ -7,6 +7,7 @@ packages=(
     # build
     g++ cmake ninja-build
     libmrpt-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libnanoflann-dev liboctomap-dev
+    libpng-dev zlib1g-dev
     # tests
     libgtest-dev libbenchmark-dev clang-format chromium
     # stock MRPT apps and their data, used by the tests and the demo

@@ -34,18 +34,22 @@ void requireTestPoints(const Replayed& replayed, const Options& options) {
                                  options.study.value_or(""));
 }
 
-void printHeading(const Run& run, const Options& options) {
-    std::printf("study %s: %s, %zu scans mapped, %zu tested%s\n",
+/// Prints what a study found, and writes the report of its run where one is wanted.
+void conclude(const Replayed& replayed, const std::vector<MapFigures>& maps,
+              const std::string& found, const Options& options) {
+    const Run& run = replayed.run;
+    std::printf("study %s: %s, %zu scans mapped, %zu tested%s\n%s",
                 options.study.value_or("").c_str(), run.dataset.c_str(), run.scansMapped,
-                run.scansTested, run.interrupted ? " (interrupted)" : "");
+                run.scansTested, run.interrupted ? " (interrupted)" : "", found.c_str());
+    if (options.reportFolder)
+        writeReport(replayed, maps, *options.reportFolder, picturesOf(replayed));
 }
 
 std::string memoryTable(const Run& run, const std::vector<MapFigures>& maps) {
     std::string text = format("  %-16s  %14s  %14s  %10s\n", "map", "memory [KB]",
                               "per scan [KB]", "times ours");
     const auto bytesOf = [](const MapFigures& map) {
-        return static_cast<double>(
-            map.memory.serialized_bytes.value_or(map.memory.live_bytes));
+        return static_cast<double>(countedBytes(map.memory));
     };
     for (const MapFigures& map : maps) {
         const double kilobytes = bytesOf(map) / 1000.0;
@@ -68,45 +72,29 @@ void ndtStudy(Recording& recording, const Options& options) {
                   depthCamera ? std::vector<std::string>{"ndt:0.05", "ndt:0.1", "ndt:0.15"}
                               : std::vector<std::string>{"ndt:0.2", "ndt:0.4", "ndt:0.6"});
     requireTestPoints(replayed, options);
-    std::vector<MapFigures> maps = evaluateReplayed(replayed);
-    MapFigures surface = evaluateSurface(replayed.map->model(), replayed.testPoints);
-    surface.name = "hgmm surface";
-    surface.className = maps.front().className;
-    surface.scanTime_ms = maps.front().scanTime_ms;
-    maps.front() = std::move(surface);
-    printHeading(replayed.run, options);
-    std::fputs(occupancyTable(replayed.run, maps).c_str(), stdout);
-    if (options.reportFolder)
-        writeReport(replayed, maps, *options.reportFolder, picturesOf(replayed));
+    std::vector<MapFigures> maps = evaluateBaselines(replayed);
+    maps.insert(maps.begin(), evaluateSurfaceOf(replayed));
+    conclude(replayed, maps, occupancyTable(replayed.run, maps), options);
 }
 
 void occupancyStudy(Recording& recording, const Options& options) {
     const Replayed replayed = replayFor(recording, options, kOccupancyMaps);
     requireTestPoints(replayed, options);
     const std::vector<MapFigures> maps = evaluateReplayed(replayed);
-    printHeading(replayed.run, options);
-    std::fputs(occupancyTable(replayed.run, maps).c_str(), stdout);
-    if (options.reportFolder)
-        writeReport(replayed, maps, *options.reportFolder, picturesOf(replayed));
+    conclude(replayed, maps, occupancyTable(replayed.run, maps), options);
 }
 
 void levelsStudy(Recording& recording, const Options& options) {
     const Replayed replayed = replayFor(recording, options, {});
     requireTestPoints(replayed, options);
     const std::vector<MapFigures> maps = evaluateReplayed(replayed);
-    printHeading(replayed.run, options);
-    std::fputs(levelsTable(maps.front()).c_str(), stdout);
-    if (options.reportFolder)
-        writeReport(replayed, maps, *options.reportFolder, picturesOf(replayed));
+    conclude(replayed, maps, levelsTable(maps.front()), options);
 }
 
 void memoryStudy(Recording& recording, const Options& options) {
     const Replayed replayed = replayFor(recording, options, kOccupancyMaps);
     const std::vector<MapFigures> maps = evaluateReplayed(replayed);
-    printHeading(replayed.run, options);
-    std::fputs(memoryTable(replayed.run, maps).c_str(), stdout);
-    if (options.reportFolder)
-        writeReport(replayed, maps, *options.reportFolder, picturesOf(replayed));
+    conclude(replayed, maps, memoryTable(replayed.run, maps), options);
 }
 
 void realtimeStudy(Recording& recording, const Options& options) {
@@ -118,18 +106,17 @@ void realtimeStudy(Recording& recording, const Options& options) {
     const double conversionMean_ms =
         sum(replayed.conversion_ms) / static_cast<double>(replayed.conversion_ms.size());
     const double insertMean_ms = sum(insert_ms) / static_cast<double>(insert_ms.size());
+    const double mean_ms = conversionMean_ms + insertMean_ms;
     const Timing times = summariseTimes(insert_ms);
-    printHeading(replayed.run, options);
-    std::printf(
-        "  %d threads, %.0f points a scan\n"
-        "  %.1f scans/s; a scan takes %.2f ms on average: %.2f conversion, %.2f insertion\n"
-        "  insertion: median %.2f, p99 %.2f, worst %.2f ms\n",
-        replayed.run.threads, replayed.run.pointsPerScan,
-        1000.0 / (conversionMean_ms + insertMean_ms), conversionMean_ms + insertMean_ms,
-        conversionMean_ms, insertMean_ms, times.median, times.p99, times.worst);
-    if (options.reportFolder)
-        writeReport(replayed, evaluateReplayed(replayed), *options.reportFolder,
-                    picturesOf(replayed));
+    std::string found = format("  %d threads, %.0f points a scan\n", replayed.run.threads,
+                               replayed.run.pointsPerScan);
+    found += format(
+        "  %.1f scans/s; a scan takes %.2f ms on average: %.2f conversion, %.2f "
+        "insertion\n",
+        1000.0 / mean_ms, mean_ms, conversionMean_ms, insertMean_ms);
+    found += format("  insertion: median %.2f, p99 %.2f, worst %.2f ms\n", times.median,
+                    times.p99, times.worst);
+    conclude(replayed, evaluateReplayed(replayed), found, options);
 }
 
 }  // namespace replay

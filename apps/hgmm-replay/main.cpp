@@ -116,12 +116,13 @@ ExitCode run(Options& options) {
     prepareOutputs(options);
     options.threads = useThreads(options.threads);
     const Study* study = options.study ? findStudy(*options.study) : nullptr;
-    if (study && study->alone) {
+    if (study && study->needs == Study::Needs::nothing) {
         study->alone(options);
         return kDone;
     }
+    const bool posesRequired = !study || study->needs != Study::Needs::scans;
     RecordingOptions recordingOptions{options.poses, options.from, options.to,
-                                      options.study != "fig3.2"};
+                                      posesRequired};
     Recording recording(options.log, recordingOptions);
     if (!recording.damage().empty())
         std::fprintf(stderr, "warning: %s\n", recording.damage().c_str());

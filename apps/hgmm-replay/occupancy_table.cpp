@@ -42,7 +42,7 @@ std::string accuracy(const MapFigures& map, int width) {
 }
 
 std::string cost(const MapFigures& map, int width, const double* firstBaseline_ms) {
-    const std::size_t bytes = map.memory.serialized_bytes.value_or(map.memory.live_bytes);
+    const std::size_t bytes = countedBytes(map.memory);
     std::string row = format("  %-*s  %10.1f  %8.2f", width, map.name.c_str(),
                              static_cast<double>(bytes) / 1000.0, map.scanTime_ms.median);
     row += firstBaseline_ms && *firstBaseline_ms > 0.0
@@ -76,10 +76,10 @@ std::string occupancyTable(const Run& run, const std::vector<MapFigures>& maps) 
         for (const MapFigures& map : maps)
             if (map.occupancy) text += accuracy(map, width);
     }
-    // Only maps of ours know their serialised size.
-    const auto baseline = std::find_if(maps.begin(), maps.end(), [](const MapFigures& map) {
-        return !map.memory.serialized_bytes;
-    });
+    // Ours come first, and have levels unless one is asked for its surfaces alone.
+    const auto baseline =
+        std::find_if(maps.begin() + 1, maps.end(),
+                     [](const MapFigures& map) { return map.levels.empty(); });
     const double* firstBaseline_ms =
         baseline == maps.end() ? nullptr : &baseline->scanTime_ms.median;
     text += format("\n  %-*s          KB   ms/scan  ratio to  queries/s  components\n",

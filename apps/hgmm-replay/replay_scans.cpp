@@ -6,7 +6,6 @@
 
 #include "format.h"
 #include "hgmm/evaluation/configured_baselines.h"
-#include "hgmm/evaluation/memory.h"
 #include "hgmm/evaluation/points.h"
 #include "hgmm/evaluation/range_noise.h"
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
@@ -86,6 +85,14 @@ struct Sampling {
           pointsPerScan(
               std::max<std::size_t>(1, 300000 / std::max<std::size_t>(1, scans))) {}
 
+    /// Which of the points of a scan, evenly over their order.
+    std::vector<std::size_t> pointsOf(std::size_t points) const {
+        std::vector<std::size_t> indices;
+        const std::size_t stride = std::max<std::size_t>(1, points / pointsPerScan);
+        for (std::size_t i = 0; i < points; i += stride) indices.push_back(i);
+        return indices;
+    }
+
     std::size_t scansBetweenSizes;  ///< between measurements of live bytes
     std::size_t pointsPerScan;      ///< of input
 };
@@ -104,14 +111,12 @@ void useScan(hgmm::Scan scan, std::size_t index, const Sampling& sampling,
     if (run.rangeNoise_m > 0.0)
         addRangeNoise(parts.mapping, run.rangeNoise_m, run.split.seed, index);
     replayed.testPoints.add(parts.heldOut, index);
-    appendPoints(parts.mapping,
-                 chooseIndices(parts.mapping.size(), sampling.pointsPerScan, run.split.seed,
-                               index, Draw::picture),
+    appendPoints(parts.mapping, sampling.pointsOf(parts.mapping.size()),
                  replayed.input_map);
     insertAndMeasure(
         replayed.cost, sampling.scansBetweenSizes,
         [&] { replayed.map->insertScan(parts.mapping); },
-        [&] { return memoryOf(replayed.map->model()).live_bytes; });
+        [&] { return replayed.map->model().liveBytes(); });
     for (ReplayedBaseline& baseline : replayed.baselines)
         insertAndMeasure(
             baseline.cost, sampling.scansBetweenSizes,

@@ -17,21 +17,38 @@ void addCost(const InsertionCost& cost, MapFigures& figures) {
     figures.liveBytesOverRun = cost.liveBytes;
 }
 
+/// What all figures of our map share.
+MapFigures ours(const char* name, MapFigures figures, const Replayed& replayed) {
+    figures.name = name;
+    figures.className = replayed.map->GetRuntimeClass()->className;
+    addCost(replayed.cost, figures);
+    return figures;
+}
+
 }  // namespace
 
-std::vector<MapFigures> evaluateReplayed(const Replayed& replayed) {
+std::vector<MapFigures> evaluateBaselines(const Replayed& replayed) {
     std::vector<MapFigures> maps;
-    maps.push_back(
-        evaluateMap(replayed.map->model(), replayed.testPoints, replayed.run.split.seed));
-    maps.back().name = "hgmm";
-    maps.back().className = replayed.map->GetRuntimeClass()->className;
-    addCost(replayed.cost, maps.back());
     for (const ReplayedBaseline& baseline : replayed.baselines) {
         maps.push_back(evaluateBaseline(*baseline.map, replayed.testPoints));
         maps.back().name = baseline.name;
         addCost(baseline.cost, maps.back());
     }
     return maps;
+}
+
+std::vector<MapFigures> evaluateReplayed(const Replayed& replayed) {
+    std::vector<MapFigures> maps = evaluateBaselines(replayed);
+    maps.insert(maps.begin(), ours("hgmm",
+                                   evaluateMap(replayed.map->model(), replayed.testPoints,
+                                               replayed.run.split.seed),
+                                   replayed));
+    return maps;
+}
+
+MapFigures evaluateSurfaceOf(const Replayed& replayed) {
+    return ours("hgmm surface", evaluateSurface(replayed.map->model(), replayed.testPoints),
+                replayed);
 }
 
 View reportView(SensorKind sensor) {
@@ -44,15 +61,20 @@ View reportView(SensorKind sensor) {
     return view;
 }
 
+ReportPicture pictureOfInput(const Replayed& replayed, const View& view,
+                             const Frame& frame) {
+    return {"Input",
+            format("%zu of the points that the maps were given", replayed.input_map.size()),
+            renderPoints(replayed.input_map, view, frame)};
+}
+
 std::vector<ReportPicture> picturesOf(const Replayed& replayed) {
     const View view = reportView(sensorKindOf(replayed.run.sensor));
     const hgmm::Map& map = replayed.map->model();
     if (replayed.input_map.empty() || map.empty()) return {};
     const Frame frame = frameOf(replayed.input_map, view);
     return {
-        {"Input",
-         format("%zu of the points that the maps were given", replayed.input_map.size()),
-         renderPoints(replayed.input_map, view, frame)},
+        pictureOfInput(replayed, view, frame),
         {"Map", format("its %zu Gaussians of surfaces, to 2 sigma", map.mixture(0).size()),
          renderEllipsoids(map.mixture(0), view, map.origin(), frame)}};
 }

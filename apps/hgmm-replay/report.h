@@ -12,6 +12,12 @@ namespace replay {
 /// The figures of all maps of a run, ours first.
 std::vector<hgmm::evaluation::MapFigures> evaluateReplayed(const Replayed& replayed);
 
+/// Those of the baselines alone.
+std::vector<hgmm::evaluation::MapFigures> evaluateBaselines(const Replayed& replayed);
+
+/// Those of our surface model alone (hgmm::evaluation::evaluateSurface).
+hgmm::evaluation::MapFigures evaluateSurfaceOf(const Replayed& replayed);
+
 /// Writes metrics.json and report.html, and, where occupancy was evaluated, roc.svg,
 /// reliability.svg and levels.svg. Throws std::runtime_error naming the file that cannot be
 /// written.
@@ -22,6 +28,11 @@ void writeReport(const Replayed& replayed,
 
 /// How pictures of reports look at maps: into rooms, at what is outdoors.
 hgmm::evaluation::View reportView(hgmm::evaluation::SensorKind sensor);
+
+/// What the maps were given.
+hgmm::evaluation::ReportPicture pictureOfInput(const Replayed& replayed,
+                                               const hgmm::evaluation::View& view,
+                                               const hgmm::evaluation::Frame& frame);
 
 /// The input, and beside it the map as ellipsoids.
 std::vector<hgmm::evaluation::ReportPicture> picturesOf(const Replayed& replayed);

@@ -31,7 +31,7 @@ std::vector<Study> makeStudies() {
     return {
         {"fig3.2",
          "estimated size of each scan's mixture, and its divergence as it is reduced",
-         Needs::recording,
+         Needs::scans,
          once([](Recording& recording, const Options& options) {
              fidelityStudy(recording, makeMap(options.config)->insertionOptions.params,
                            options);
@@ -65,7 +65,7 @@ std::vector<Study> makeStudies() {
          {}},
         {"table4.1",
          "memory against OctoMap, NDT-OM and GPOctoMap",
-         Needs::recording,
+         Needs::posedScans,
          once(memoryStudy),
          {}},
         {"fig4.5",
@@ -75,7 +75,7 @@ std::vector<Study> makeStudies() {
          regressionStudy},
         {"realtime",
          "scans per second, from observation to updated map",
-         Needs::recording,
+         Needs::posedScans,
          once(realtimeStudy),
          {}},
         {"free-space",
@@ -98,7 +98,8 @@ const char* wordsFor(Needs needs) {
         case Needs::testScans:
             return "; needs --split K";
         case Needs::nothing:
-        case Needs::recording:
+        case Needs::scans:
+        case Needs::posedScans:
             break;
     }
     return "";

@@ -13,8 +13,8 @@ struct Study {
     std::string name;
     std::string text;  ///< what it does, for --list-studies
     /// What it must be given.
-    enum class Needs { nothing, recording, testPoints, testScans } needs;
-    /// Empty for studies that need nothing: those are run by `alone`.
+    enum class Needs { nothing, scans, posedScans, testPoints, testScans } needs;
+    /// For Needs::nothing, `alone` is run instead.
     std::function<void(hgmm::evaluation::Recording&,
                        const hgmm::evaluation::RecordingOptions&, const Options&)>
         run;

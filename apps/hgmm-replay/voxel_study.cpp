@@ -83,18 +83,19 @@ void voxelStudy(Recording& recording, const Options& given) {
 
     std::printf("study fig3.8: voxels of %g m, %zu scans mapped, %zu tested\n", edge_m,
                 replayed.run.scansMapped, replayed.run.scansTested);
-    std::vector<ReportPicture> pictures = picturesOf(replayed);
-    if (pictures.size() > 1) pictures.resize(1);
+    std::vector<std::string> texts;
+    for (const VoxelMap& map : maps) {
+        texts.push_back(describe(map, measured_map, edge_m));
+        std::printf("  %-16s  %s\n", map.name.c_str(), texts.back().c_str());
+    }
+    if (!options.reportFolder) return;
     const View view = reportView(sensorKindOf(replayed.run.sensor));
     const Frame frame = frameOf(replayed.input_map, view);
-    for (const VoxelMap& map : maps) {
-        const std::string text = describe(map, measured_map, edge_m);
-        std::printf("  %-16s  %s\n", map.name.c_str(), text.c_str());
-        pictures.push_back(
-            {map.name, text, renderVoxels(map.voxels_map, edge_m, view, frame)});
-    }
-    if (options.reportFolder)
-        writeReport(replayed, evaluateReplayed(replayed), *options.reportFolder, pictures);
+    std::vector<ReportPicture> pictures{pictureOfInput(replayed, view, frame)};
+    for (std::size_t i = 0; i < maps.size(); ++i)
+        pictures.push_back({maps[i].name, texts[i],
+                            renderVoxels(maps[i].voxels_map, edge_m, view, frame)});
+    writeReport(replayed, evaluateReplayed(replayed), *options.reportFolder, pictures);
 }
 
 }  // namespace replay

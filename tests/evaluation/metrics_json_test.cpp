@@ -228,7 +228,10 @@ TEST(OccupancyPlots, ShowEveryMap) {
     // The level that was not asked about occupancy is left out.
     using Points2 = std::vector<std::pair<double, double>>;
     EXPECT_EQ(levels.curves[0].points, (Points2{{1.2, 0.9}}));
-    EXPECT_EQ(levels.curves[1].points, (Points2{{2.0, 0.9}}));
+    EXPECT_EQ(levels.curves[1].points, (Points2{{1.0, 0.9}})) << "as saved";
+    other.memory.serialized_bytes.reset();
+    EXPECT_EQ(levelsPlot({ours, other}).curves[1].points, (Points2{{2.0, 0.9}}))
+        << "as held, where it cannot be saved";
     EXPECT_EQ(reliabilityPlot({ours}).curves.back().points,
               (Points2{{0.1, 0.2}, {0.9, 0.7}}));
     for (const Plot& plot :

@@ -14,6 +14,7 @@
 #include "grid3d_access.h"
 #include "hgmm/evaluation/nearest_baseline.h"
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
+#include "octree_access.h"
 #include "scan_points.h"
 #include "serialized_size.h"
 
@@ -80,12 +81,9 @@ class ConfiguredOctree : public ConfiguredMap<Octree> {
  public:
     using ConfiguredMap<Octree>::ConfiguredMap;
     std::vector<std::pair<std::string, double>> options() const override {
-        return {{"resolution", this->mine().getResolution()},
-                {"probHit", this->mine().getProbHit()},
-                {"probMiss", this->mine().getProbMiss()},
-                {"clampingThresMin", this->mine().getClampingThresMin()},
-                {"clampingThresMax", this->mine().getClampingThresMax()},
-                {"pruning", this->mine().insertionOptions.pruning ? 1.0 : 0.0}};
+        auto options = optionsOfOctree(this->mine());
+        options.emplace_back("pruning", this->mine().insertionOptions.pruning ? 1.0 : 0.0);
+        return options;
     }
     void insert(const Scan& scan) override {
         // COctoMap forgets the sensor's pose on the robot: so the sensor is the robot.
@@ -96,10 +94,7 @@ class ConfiguredOctree : public ConfiguredMap<Octree> {
 
  protected:
     Answer answer(const Eigen::Vector3d& p_map) const override {
-        const Eigen::Vector3f p = p_map.cast<float>();
-        double probability = 0.5;
-        const bool known = this->mine().getPointOccupancy(p.x(), p.y(), p.z(), probability);
-        return known ? Answer{probability, false} : this->unknown();
+        return answerOfOctree(this->mine(), p_map);
     }
 };
 
@@ -124,7 +119,8 @@ class ConfiguredGrid3d : public ConfiguredMap<mrpt::maps::COccupancyGridMap3D> {
         return {{"resolution", mine().m_grid.getResolutionXY()}};
     }
     void insert(const Scan& scan) override {
-        if (map().genericMapParams.enableObservationInsertion) insertIntoGrid(scan, mine());
+        if (map().genericMapParams.enableObservationInsertion)
+            insertIntoGrid(finitePointsInMap(scan), scan.T_map_sensor.t, mine());
     }
     std::size_t liveBytes() const override { return bytesOfGrid(mine()); }
 

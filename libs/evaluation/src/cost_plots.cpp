@@ -3,17 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "curve_of_map.h"
+
 namespace hgmm::evaluation {
 namespace {
-
-/// A curve of the map, empty as yet.
-Curve curveOf(const MapFigures& map, const std::vector<MapFigures>& maps) {
-    Curve curve;
-    curve.label = map.name;
-    curve.emphasised = &map == &maps.front();
-    curve.style = static_cast<std::size_t>(&map - maps.data());
-    return curve;
-}
 
 /// A logarithmic axis shows maps of very different cost in one plot, but cannot start at
 /// zero: it is for those only.
@@ -47,7 +40,7 @@ Plot insertionPlot(const std::vector<MapFigures>& maps) {
     plot.yLabel = group == 1 ? "insertion [ms]"
                              : "insertion, median of " + std::to_string(group) + " [ms]";
     for (const MapFigures& map : maps) {
-        Curve curve = curveOf(map, maps);
+        Curve curve = curveOfMap(map, maps);
         for (std::size_t i = 0; i < map.insert_ms.size(); i += group) {
             const std::size_t end = std::min(i + group, map.insert_ms.size());
             const auto first = map.insert_ms.begin();
@@ -68,7 +61,7 @@ Plot memoryPlot(const std::vector<MapFigures>& maps) {
     plot.xLabel = "mapping scans inserted [number]";
     plot.yLabel = "live memory [KB]";
     for (const MapFigures& map : maps) {
-        Curve curve = curveOf(map, maps);
+        Curve curve = curveOfMap(map, maps);
         for (const auto& [scans, bytes] : map.liveBytesOverRun)
             addPoint(curve, static_cast<double>(scans),
                      static_cast<double>(bytes) / 1000.0);

@@ -2,64 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 #include <utility>
+
+#include "hgmm/evaluation/voxel_hash.h"
 
 namespace hgmm::evaluation::gp_octomap {
 namespace {
 
 constexpr int kBits = 21;
 
-/// Spreads keys, whose low bits differ little, over a hash table.
-struct PlaceHash {
-    std::size_t operator()(const Place& p) const {
-        std::uint64_t h = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            h = (h ^ static_cast<std::uint64_t>(p[axis])) * 0x9E3779B97F4A7C15ULL;
-            h ^= h >> 29U;
-        }
-        return static_cast<std::size_t>(h);
-    }
-};
-
-/// How far from the origin cells may lie for their means to be within the lattice of
-/// blocks [cells]. Coordinates up to 1e15 are exact.
-std::int64_t cellLimit(const GpOctomapParams& params) {
-    const double cellsPerBlock =
-        std::ldexp(params.resolution_m, params.blockDepth) / params.sampleSpacing_m;
-    return static_cast<std::int64_t>(
-        std::min(cellsPerBlock * static_cast<double>(kMaxPlace - 1), 1e15));
-}
-
 /// Replaces the points of each cell by their mean; cells in the order of their first
 /// points.
 class Thinning {
  public:
-    explicit Thinning(const GpOctomapParams& params)
-        : edge_m_(params.sampleSpacing_m), limit_(cellLimit(params)) {}
+    explicit Thinning(const GpOctomapParams& params) : edge_m_(params.sampleSpacing_m) {}
 
     void add(const Eigen::Vector3d& point_m) {
-        Place place;
-        if (!placeAt(point_m, edge_m_, limit_, place)) return;
-        const auto [cell, isNew] = cells_.try_emplace(place, sums_.size());
-        if (isNew) sums_.emplace_back(Eigen::Vector3d::Zero(), 0);
-        sums_[cell->second].first += point_m;
-        ++sums_[cell->second].second;
+        if (!hasVoxel(point_m, edge_m_)) return;
+        Cell& cell = cells_.cell(cells_.numberOf(voxelOf(point_m, edge_m_)));
+        cell.sum += point_m;
+        cell.count += 1.0;
     }
 
     std::vector<Eigen::Vector3d> means() const {
         std::vector<Eigen::Vector3d> result;
-        result.reserve(sums_.size());
-        for (const auto& [sum, count] : sums_)
-            result.push_back(sum / static_cast<double>(count));
+        result.reserve(cells_.size());
+        for (std::size_t i = 0; i < cells_.size(); ++i)
+            result.push_back(cells_.cell(i).sum / cells_.cell(i).count);
         return result;
     }
 
  private:
+    struct Cell {
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        double count = 0.0;
+    };
+
     double edge_m_;
-    std::int64_t limit_;
-    std::unordered_map<Place, std::size_t, PlaceHash> cells_;
-    std::vector<std::pair<Eigen::Vector3d, std::size_t>> sums_;
+    VoxelHash<Cell> cells_;
 };
 
 std::vector<Eigen::Vector3d> hitsOf(const Scan& scan, const GpOctomapParams& params) {

@@ -4,19 +4,16 @@
 
 #include <algorithm>
 
-#include "scan_points.h"
-
 namespace hgmm::evaluation {
 
-void insertIntoGrid(const Scan& scan, mrpt::maps::COccupancyGridMap3D& grid) {
-    const Points points = finitePointsInMap(scan);
+void insertIntoGrid(const Points& points_map, const Eigen::Vector3d& origin_map,
+                    mrpt::maps::COccupancyGridMap3D& grid) {
     mrpt::maps::CSimplePointsMap cloud;
-    cloud.reserve(points.size());
-    for (const Eigen::Vector3d& p_map : points)
+    cloud.reserve(points_map.size());
+    for (const Eigen::Vector3d& p_map : points_map)
         cloud.insertPointFast(static_cast<float>(p_map.x()), static_cast<float>(p_map.y()),
                               static_cast<float>(p_map.z()));
-    const Eigen::Vector3d& t = scan.T_map_sensor.t;
-    grid.insertPointCloud({t.x(), t.y(), t.z()}, cloud);
+    grid.insertPointCloud({origin_map.x(), origin_map.y(), origin_map.z()}, cloud);
 }
 
 Answer answerOfGrid(const mrpt::maps::COccupancyGridMap3D& grid,

@@ -5,8 +5,9 @@
 
 namespace hgmm::evaluation {
 
-/// Inserts the rays of a scan. The grid keeps its size: what is beyond it is lost.
-void insertIntoGrid(const Scan& scan, mrpt::maps::COccupancyGridMap3D& grid);
+/// Inserts rays from one origin [m]. The grid keeps its size: what is beyond it is lost.
+void insertIntoGrid(const Points& points_map, const Eigen::Vector3d& origin_map,
+                    mrpt::maps::COccupancyGridMap3D& grid);
 
 /// What a grid says of a point. A voxel at exactly even odds is taken for untouched, which
 /// is all that the grid itself can tell.

@@ -53,7 +53,7 @@ void Grid3dBaseline::insert(const Scan& scan) {
     box.low = box.low.cwiseMin(scan.T_map_sensor.t);
     box.high = box.high.cwiseMax(scan.T_map_sensor.t);
     growToHold(box.low, box.high);
-    insertIntoGrid(scan, map_);
+    insertIntoGrid(points, scan.T_map_sensor.t, map_);
 }
 
 void Grid3dBaseline::query(const Eigen::Vector3d* points_map, std::size_t n,

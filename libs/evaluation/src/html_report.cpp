@@ -111,7 +111,8 @@ std::string plots(const std::vector<MapFigures>& maps) {
            plotFigure(levelsPlot(maps),
                       "Further left is smaller, higher is better. Levels of one hierarchy "
                       "are joined, from the base on the right; they count what they take "
-                      "when saved, other maps what they hold in memory.") +
+                      "when saved, as do other maps that can be; the rest count by their "
+                      "own account.") +
            plotFigure(insertionPlot(maps),
                       "Below is faster; a rise is the price of a map "
                       "that grows.") +

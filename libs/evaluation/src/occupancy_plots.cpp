@@ -3,15 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "curve_of_map.h"
+
 namespace hgmm::evaluation {
 namespace {
 
-Curve curveOf(const RocCurve& roc, const std::string& label, bool emphasised) {
+void addRoc(const RocCurve& roc, Curve& curve) {
     constexpr double step = 0.002;  // less than two pixels
+    for (const RocPoint& p : thinned(roc, step)) curve.points.emplace_back(p.fpr, p.tpr);
+}
+
+Curve labelledRoc(const RocCurve& roc, const std::string& label, bool emphasised) {
     Curve curve;
     curve.label = label;
     curve.emphasised = emphasised;
-    for (const RocPoint& p : thinned(roc, step)) curve.points.emplace_back(p.fpr, p.tpr);
+    addRoc(roc, curve);
     return curve;
 }
 
@@ -38,9 +44,10 @@ Plot rocPlot(const std::vector<MapFigures>& maps) {
         rocAxes("Occupied or free: thick, free points near the hit; thin, anywhere");
     for (const MapFigures& map : maps) {
         if (!map.occupancy) continue;
-        plot.curves.push_back(curveOf(map.occupancy->rocNear, map.name + ", near", true));
         plot.curves.push_back(
-            curveOf(map.occupancy->rocUniform, map.name + ", uniform", false));
+            labelledRoc(map.occupancy->rocNear, map.name + ", near", true));
+        plot.curves.push_back(
+            labelledRoc(map.occupancy->rocUniform, map.name + ", uniform", false));
     }
     return plot;
 }
@@ -49,9 +56,8 @@ Plot rocNearPlot(const std::vector<MapFigures>& maps) {
     Plot plot = rocAxes("Hits or free points near them");
     for (const MapFigures& map : maps) {
         if (!map.occupancy) continue;
-        plot.curves.push_back(
-            curveOf(map.occupancy->rocNear, map.name, &map == &maps.front()));
-        plot.curves.back().style = static_cast<std::size_t>(&map - maps.data());
+        plot.curves.push_back(curveOfMap(map, maps));
+        addRoc(map.occupancy->rocNear, plot.curves.back());
     }
     return plot;
 }
@@ -67,10 +73,8 @@ Plot rocUniformPlot(const std::vector<MapFigures>& maps) {
     }
     for (const MapFigures& map : maps) {
         if (!map.occupancy || map.occupancy->rocUniform.empty()) continue;
-        Curve curve = plot.curves.front();
-        curve.label = map.name;
-        curve.emphasised = &map == &maps.front();
-        curve.style = static_cast<std::size_t>(&map - maps.data());
+        Curve curve = curveOfMap(map, maps);
+        curve.points = plot.curves.front().points;
         for (auto& [fpr, tpr] : curve.points) tpr = tprAt(map.occupancy->rocUniform, fpr);
         plot.curves.push_back(curve);
     }
@@ -85,10 +89,7 @@ Plot reliabilityPlot(const std::vector<MapFigures>& maps) {
     plot.curves.push_back(diagonal());
     for (const MapFigures& map : maps) {
         if (!map.occupancy || map.meaning != Meaning::occupancy) continue;
-        Curve curve;
-        curve.label = map.name;
-        curve.emphasised = &map == &maps.front();
-        curve.style = static_cast<std::size_t>(&map - maps.data());
+        Curve curve = curveOfMap(map, maps);
         curve.markers = true;
         for (const ReliabilityBin& bin : map.occupancy->reliability)
             curve.points.emplace_back(bin.meanProbability, bin.occupiedShare);
@@ -105,18 +106,15 @@ Plot levelsPlot(const std::vector<MapFigures>& maps) {
     plot.xLogarithmic = true;
     constexpr double kilobyte = 1000.0;
     for (const MapFigures& map : maps) {
-        Curve curve;
-        curve.label = map.name;
-        curve.emphasised = &map == &maps.front();
-        curve.style = static_cast<std::size_t>(&map - maps.data());
+        Curve curve = curveOfMap(map, maps);
         curve.markers = true;
         for (const LevelFigures& level : map.levels)
             if (level.aucNear && level.bytes > 0)
                 curve.points.emplace_back(static_cast<double>(level.bytes) / kilobyte,
                                           *level.aucNear);
-        if (map.levels.empty() && map.occupancy && map.memory.live_bytes > 0)
-            curve.points.emplace_back(static_cast<double>(map.memory.live_bytes) / kilobyte,
-                                      map.occupancy->aucNear);
+        const double own = static_cast<double>(countedBytes(map.memory)) / kilobyte;
+        if (map.levels.empty() && map.occupancy && own > 0)
+            curve.points.emplace_back(own, map.occupancy->aucNear);
         if (!curve.points.empty()) plot.curves.push_back(curve);
     }
     return plot;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
+#include "octree_access.h"
 
 namespace hgmm::evaluation {
 
@@ -19,11 +20,7 @@ std::string OctomapBaseline::source() const {
 }
 
 std::vector<std::pair<std::string, double>> OctomapBaseline::options() const {
-    return {{"resolution", map_.getResolution()},
-            {"probHit", map_.getProbHit()},
-            {"probMiss", map_.getProbMiss()},
-            {"clampingThresMin", map_.getClampingThresMin()},
-            {"clampingThresMax", map_.getClampingThresMax()}};
+    return optionsOfOctree(map_);
 }
 
 void OctomapBaseline::insert(const Scan& scan) {
@@ -48,13 +45,7 @@ void OctomapBaseline::insert(const Scan& scan) {
 
 void OctomapBaseline::query(const Eigen::Vector3d* points_map, std::size_t n,
                             Answer* answers) const {
-    for (std::size_t i = 0; i < n; ++i) {
-        const Eigen::Vector3f p = points_map[i].cast<float>();
-        answers[i] = Answer{};
-        answers[i].unknown =
-            !map_.getPointOccupancy(p.x(), p.y(), p.z(), answers[i].probability);
-        if (answers[i].unknown) answers[i].probability = 0.5;
-    }
+    for (std::size_t i = 0; i < n; ++i) answers[i] = answerOfOctree(map_, points_map[i]);
 }
 
 }  // namespace hgmm::evaluation

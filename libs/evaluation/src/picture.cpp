@@ -1,44 +1,16 @@
 #include "hgmm/evaluation/picture.h"
 
-#include <zlib.h>
+#include <png.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <optional>
 #include <stdexcept>
 
 #include "hgmm/evaluation/metrics_json.h"
 
-// PNG, second edition (ISO/IEC 15948): chunks, filters and colour types.
 namespace hgmm::evaluation {
 namespace {
-
-void appendBigEndian(std::uint32_t value, std::string& out) {
-    for (int shift = 24; shift >= 0; shift -= 8)
-        out += static_cast<char>((value >> shift) & 0xFFU);
-}
-
-void appendChunk(const std::string& type, const std::string& content, std::string& out) {
-    appendBigEndian(static_cast<std::uint32_t>(content.size()), out);
-    const std::string checked = type + content;
-    out += checked;
-    appendBigEndian(
-        static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(checked.data()),
-                                         static_cast<uInt>(checked.size()))),
-        out);
-}
-
-std::string compressed(const std::string& bytes) {
-    uLongf size = compressBound(bytes.size());
-    std::string out(size, '\0');
-    if (compress2(reinterpret_cast<Bytef*>(out.data()), &size,
-                  reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(),
-                  Z_BEST_COMPRESSION) != Z_OK)
-        throw std::runtime_error("a picture cannot be compressed");
-    out.resize(size);
-    return out;
-}
 
 /// Few colours take one byte for a pixel instead of three, which compresses far better.
 struct Palette {
@@ -63,27 +35,6 @@ std::optional<Palette> paletteOf(const Picture& picture) {
     return palette;
 }
 
-/// Rows of indices, as they are: neighbours in a palette have nothing in common.
-std::string indexedRows(const Palette& palette, std::size_t width) {
-    std::string rows;
-    for (std::size_t i = 0; i < palette.pixels.size(); i += width)
-        rows += '\0' + palette.pixels.substr(i, width);
-    return rows;
-}
-
-/// Rows of differences from the row above (filter 2).
-std::string filteredRows(const Picture& picture) {
-    const std::size_t stride = 3 * static_cast<std::size_t>(picture.width_px);
-    std::string rows;
-    rows.reserve(picture.rgb.size() + static_cast<std::size_t>(picture.height_px));
-    for (std::size_t i = 0; i < picture.rgb.size(); ++i) {
-        if (i % stride == 0) rows += '\2';
-        const int above = i < stride ? 0 : picture.rgb[i - stride];
-        rows += static_cast<char>(picture.rgb[i] - above);
-    }
-    return rows;
-}
-
 }  // namespace
 
 std::string pngOf(const Picture& picture) {
@@ -92,21 +43,22 @@ std::string pngOf(const Picture& picture) {
             3 * static_cast<std::size_t>(picture.width_px) * picture.height_px)
         throw std::invalid_argument("a picture without pixels, or with too few or many");
     const std::optional<Palette> palette = paletteOf(picture);
-    std::string header;
-    appendBigEndian(static_cast<std::uint32_t>(picture.width_px), header);
-    appendBigEndian(static_cast<std::uint32_t>(picture.height_px), header);
-    header += '\10';                  // bits
-    header += palette ? '\3' : '\2';  // colour type
-    header += std::string(3, '\0');   // deflate, the usual filters, not interlaced
-    std::string png = "\x89PNG\r\n\x1a\n";
-    appendChunk("IHDR", header, png);
-    if (palette) appendChunk("PLTE", palette->colours, png);
-    appendChunk("IDAT",
-                compressed(palette ? indexedRows(*palette,
-                                                 static_cast<std::size_t>(picture.width_px))
-                                   : filteredRows(picture)),
-                png);
-    appendChunk("IEND", "", png);
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = static_cast<png_uint_32>(picture.width_px);
+    image.height = static_cast<png_uint_32>(picture.height_px);
+    image.format = palette ? PNG_FORMAT_RGB_COLORMAP : PNG_FORMAT_RGB;
+    if (palette)
+        image.colormap_entries = static_cast<png_uint_32>(palette->colours.size() / 3);
+    const void* pixels = palette ? static_cast<const void*>(palette->pixels.data())
+                                 : static_cast<const void*>(picture.rgb.data());
+    const void* colours = palette ? palette->colours.data() : nullptr;
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+    std::string png(size, '\0');
+    if (png_image_write_to_memory(&image, png.data(), &size, 0, pixels, 0, colours) == 0)
+        throw std::runtime_error(std::string("a picture cannot be written: ") +
+                                 image.message);
+    png.resize(size);
     return png;
 }
 

@@ -5,18 +5,12 @@
 #include "hgmm/divergence.h"
 #include "hgmm/map.h"
 #include "map_derived.h"
+#include "require_rigid.h"
 #include "storable.h"
 
 namespace hgmm {
 
 namespace {
-
-/// Scan::validate knows what a pose must be.
-void requireRigid(const Pose& pose) {
-    Scan scan;
-    scan.T_map_sensor = pose;
-    scan.validate();
-}
 
 /// A component over space, and W where D = 4, which a change of frame leaves as it is.
 template <int D>
@@ -50,7 +44,7 @@ double similarity(const Gaussian<3>& a, const Gaussian<3>& b) {
 }  // namespace
 
 void Map::merge(const Map& other, const Pose& T_this_other) {
-    requireRigid(T_this_other);
+    requireRigid(T_this_other, "merge: the pose of the other map");
     if (params_.occupancy.freeSpace.freeSpaceModel !=
         other.params_.occupancy.freeSpace.freeSpaceModel)
         throw std::invalid_argument(

@@ -1,6 +1,5 @@
 #include "hgmm/registration.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -8,6 +7,7 @@
 #include "hgmm/require.h"
 #include "registration_layers.h"
 #include "registration_newton.h"
+#include "require_rigid.h"
 
 namespace hgmm {
 
@@ -40,13 +40,6 @@ void requireLevels(const std::vector<const Mixture<3>*>& levels) {
     for (const Mixture<3>* level : levels)
         if (level == nullptr)
             throw std::invalid_argument("registration: a target level is null");
-}
-
-void requirePose(const Pose& T) {
-    if (!T.R.allFinite() || !T.t.allFinite())
-        throw std::invalid_argument("registration: the guess is not finite");
-    if (!(T.R * T.R.transpose()).isIdentity(1e-4) || T.R.determinant() < 0)
-        throw std::invalid_argument("registration: the guess' rotation is not orthonormal");
 }
 
 /// The covariance of a pose about the source's centre as one about its origin:
@@ -112,7 +105,7 @@ RegistrationTarget::~RegistrationTarget() = default;
 
 Registration RegistrationTarget::align(const Mixture<3>& mixture,
                                        const Pose& T_target_source_guess) const {
-    requirePose(T_target_source_guess);
+    requireRigid(T_target_source_guess, "registration: the guess");
     const RegistrationParams& params = impl_->params;
     const RegistrationSource source(mixture);
     Registration result;
@@ -142,7 +135,7 @@ Registration registerMixtures(const std::vector<const Mixture<3>*>& targetLevels
                               const RegistrationParams& params) {
     params.validate();
     requireLevels(targetLevels);
-    requirePose(T_target_source_guess);
+    requireRigid(T_target_source_guess, "registration: the guess");
     const RegistrationSource components(source);
     double radius2 = 0.0;
     for (const Eigen::Vector3d& m : components.mean)

@@ -158,10 +158,11 @@ void TargetLayers::forEachPair(const RegistrationSource& source,
     }
 }
 
-double TargetLayers::cost(const RegistrationSource& source,
-                          const std::vector<Neighbours>& neighbours,
-                          const Pose& T_target_centre) const {
-    std::vector<double> sums(chunksOf(source.size()), 0.0);
+template <typename Sum, typename Add>
+Sum TargetLayers::sumOverPairs(const RegistrationSource& source,
+                               const std::vector<Neighbours>& neighbours,
+                               const Pose& T_target_centre, Add&& add) const {
+    std::vector<Sum> sums(chunksOf(source.size()), Sum{});
     const auto chunks = static_cast<std::int64_t>(sums.size());
 #pragma omp parallel for schedule(static)
     for (std::int64_t chunk = 0; chunk < chunks; ++chunk) {
@@ -169,31 +170,28 @@ double TargetLayers::cost(const RegistrationSource& source,
         forEachPair(source, neighbours, T_target_centre, first,
                     std::min(first + kChunk, source.size()),
                     [&](const ComponentPair& pair, std::uint32_t) {
-                        sums[std::size_t(chunk)] += pairCost(pair);
+                        add(pair, sums[std::size_t(chunk)]);
                     });
     }
-    double total = 0.0;
-    for (const double sum : sums) total += sum;
+    Sum total{};
+    for (const Sum& sum : sums) total += sum;
     return total;
+}
+
+double TargetLayers::cost(const RegistrationSource& source,
+                          const std::vector<Neighbours>& neighbours,
+                          const Pose& T_target_centre) const {
+    return sumOverPairs<double>(
+        source, neighbours, T_target_centre,
+        [](const ComponentPair& pair, double& sum) { sum += pairCost(pair); });
 }
 
 CostSums TargetLayers::sums(const RegistrationSource& source,
                             const std::vector<Neighbours>& neighbours,
                             const Pose& T_target_centre) const {
-    std::vector<CostSums> sums(chunksOf(source.size()));
-    const auto chunks = static_cast<std::int64_t>(sums.size());
-#pragma omp parallel for schedule(static)
-    for (std::int64_t chunk = 0; chunk < chunks; ++chunk) {
-        const std::size_t first = std::size_t(chunk) * kChunk;
-        forEachPair(source, neighbours, T_target_centre, first,
-                    std::min(first + kChunk, source.size()),
-                    [&](const ComponentPair& pair, std::uint32_t) {
-                        addPair(pair, sums[std::size_t(chunk)]);
-                    });
-    }
-    CostSums total;
-    for (const CostSums& sum : sums) total += sum;
-    return total;
+    return sumOverPairs<CostSums>(
+        source, neighbours, T_target_centre,
+        [](const ComponentPair& pair, CostSums& sum) { addPair(pair, sum); });
 }
 
 Matrix6d TargetLayers::gradientScatter(const RegistrationSource& source,

@@ -99,6 +99,11 @@ class TargetLayers {
     void forEachPair(const RegistrationSource& source,
                      const std::vector<Neighbours>& neighbours, const Pose& T_target_centre,
                      std::size_t first, std::size_t last, Visitor&& visit) const;
+    /// Sums over all pairs, in chunks on all threads: add(pair, sum of its chunk).
+    template <typename Sum, typename Add>
+    Sum sumOverPairs(const RegistrationSource& source,
+                     const std::vector<Neighbours>& neighbours, const Pose& T_target_centre,
+                     Add&& add) const;
 
     std::vector<TargetLayer> layers_;
 };

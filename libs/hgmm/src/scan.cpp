@@ -1,9 +1,8 @@
 #include "hgmm/scan.h"
 
-#include <Eigen/LU>
-
-#include <cmath>
 #include <stdexcept>
+
+#include "require_rigid.h"
 
 namespace hgmm {
 
@@ -26,11 +25,7 @@ void Scan::validate() const {
         if (channel.values.size() != x.size())
             throw std::invalid_argument("Scan: channel '" + channel.name +
                                         "' does not hold one value per point");
-    const Eigen::Matrix3d& R = T_map_sensor.R;
-    if (!R.allFinite() || !T_map_sensor.t.allFinite())
-        throw std::invalid_argument("Scan: the sensor pose is not finite");
-    if (!(R * R.transpose()).isIdentity(1e-4) || R.determinant() < 0)
-        throw std::invalid_argument("Scan: the sensor pose's rotation is not orthonormal");
+    requireRigid(T_map_sensor, "Scan: the sensor pose");
 }
 
 }  // namespace hgmm

@@ -12,6 +12,12 @@ struct Memory {
     std::size_t live_bytes = 0;                   ///< heap held, index and levels included
 };
 
+/// What maps are compared by: saved, or as held in memory where they cannot be saved
+/// [bytes].
+inline std::size_t countedBytes(const Memory& memory) {
+    return memory.serialized_bytes.value_or(memory.live_bytes);
+}
+
 Memory memoryOf(const Map& map);
 
 /// Bytes of a component, with its view, in a map that is saved compactly (Map::save).

@@ -34,8 +34,7 @@ enum class Draw : std::uint64_t {
     uniformFree = 5,
     nearFree = 6,
     rangeNoise = 7,
-    room = 8,
-    picture = 9
+    room = 8
 };
 
 /// The random numbers of one use in one scan.
