@@ -6,6 +6,10 @@ function(hgmm_target TARGET)
     target_compile_options(${TARGET} PRIVATE
         -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wno-psabi
         $<$<BOOL:${HGMM_WARNINGS_AS_ERRORS}>:-Werror>)
+    if(CMAKE_UNITY_BUILD)
+        # Every file is then an included one, whose anonymous namespaces GCC distrusts.
+        target_compile_options(${TARGET} PRIVATE -Wno-subobject-linkage)
+    endif()
     if(HGMM_SANITIZE)
         target_compile_options(${TARGET} PUBLIC
             -fsanitize=address,undefined -fno-omit-frame-pointer -fno-sanitize-recover=undefined)

@@ -24,18 +24,12 @@ Replayed replayWith(FreeSpaceModel model, Recording& recording, const Options& o
     return replayScans(recording, std::move(map), options);
 }
 
-/// Whether Ctrl-C was pressed, and says so.
-bool stopped() {
-    if (interrupted()) std::fputs("interrupted: nothing was compared\n", stderr);
-    return interrupted();
-}
-
 }  // namespace
 
 void freeSpaceStudy(Recording& recording, const RecordingOptions& recordingOptions,
                     const Options& options) {
     const Replayed slabs = replayWith(FreeSpaceModel::slabs, recording, options);
-    if (stopped()) return;
+    if (comparisonStopped()) return;
     if (slabs.run.scansMapped == 0)
         throw std::runtime_error(options.log + ": no scan was left to build a map from");
     if (slabs.testPoints.empty())
@@ -46,7 +40,7 @@ void freeSpaceStudy(Recording& recording, const RecordingOptions& recordingOptio
     Recording again(options.log, recordingOptions);
     const Replayed perComponent =
         replayWith(FreeSpaceModel::perComponent, again, withoutBaselines);
-    if (stopped()) return;
+    if (comparisonStopped()) return;
 
     std::vector<MapFigures> maps = evaluateReplayed(slabs);
     maps.front().name = "slabs";

@@ -127,18 +127,12 @@ std::string csv(const IncrementalComparison& comparison) {
     return out.str();
 }
 
-/// Whether Ctrl-C was pressed, and says so.
-bool stopped() {
-    if (interrupted()) std::fputs("interrupted: nothing was compared\n", stderr);
-    return interrupted();
-}
-
 }  // namespace
 
 void incrementalStudy(Recording& recording, const RecordingOptions& recordingOptions,
                       const Options& options) {
     const Replayed replayed = replayScans(recording, makeMap(options.config), options);
-    if (stopped()) return;
+    if (comparisonStopped()) return;
     const hgmm::Map& map = replayed.map->model();
     const Points& hits_map = replayed.testPoints.hits();
     if (map.empty())
@@ -148,9 +142,9 @@ void incrementalStudy(Recording& recording, const RecordingOptions& recordingOpt
                                  ": no test points were held out for study incremental");
     Recording again(options.log, recordingOptions);
     const SamplePool pool = poolSamples(again, map, options);
-    if (stopped()) return;
+    if (comparisonStopped()) return;
     const IncrementalComparison comparison = compare(map, pool, hits_map);
-    if (stopped()) return;
+    if (comparisonStopped()) return;
     std::fputs(summary(comparison, replayed.run, hits_map.size()).c_str(), stdout);
     if (options.reportFolder)
         writeTextFile(*options.reportFolder + "/incremental.csv", csv(comparison));

@@ -1,6 +1,7 @@
 #include "interrupt.h"
 
 #include <csignal>
+#include <cstdio>
 
 namespace replay {
 namespace {
@@ -21,6 +22,11 @@ void catchInterrupts() {
 
 bool interrupted() {
     return pressed != 0;
+}
+
+bool comparisonStopped() {
+    if (interrupted()) std::fputs("interrupted: nothing was compared\n", stderr);
+    return interrupted();
 }
 
 }  // namespace replay

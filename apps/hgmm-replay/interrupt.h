@@ -8,4 +8,7 @@ void catchInterrupts();
 /// Whether Ctrl-C was pressed.
 bool interrupted();
 
+/// The same for a study that compares: says on stderr that nothing was compared.
+bool comparisonStopped();
+
 }  // namespace replay

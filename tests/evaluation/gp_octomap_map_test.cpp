@@ -8,14 +8,16 @@
 #include <vector>
 
 #include "hgmm/evaluation/gp_octomap_baseline.h"
+#include "voxel_centres.h"
+#include "wall_scene.h"
 
 using namespace hgmm::evaluation;
+using namespace wall_scene;
 
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kWall_m = 3.03;  // x of the wall in the map frame, amid a voxel of 10 cm
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Calls f with the low corner of each cube within [low, high).
@@ -25,36 +27,6 @@ void forCubes(const Vector3d& low, const Vector3d& high, double edge_m,
     for (int i = 0; i < n.x(); ++i)
         for (int j = 0; j < n.y(); ++j)
             for (int k = 0; k < n.z(); ++k) f(low + edge_m * Vector3d(i, j, k));
-}
-
-/// Calls f with the centre of each voxel within [low, high), edge 0.1 m.
-void forVoxels(const Vector3d& low, const Vector3d& high,
-               const std::function<void(const Vector3d&)>& f) {
-    forCubes(low, high, 0.1, [&](const Vector3d& v) { f(v + Vector3d::Constant(0.05)); });
-}
-
-/// A wall of 2 x 2 m, seen from (1.03, 0.53, 0.73) by a sensor that is turned by 90
-/// degrees.
-hgmm::Scan wallScan() {
-    hgmm::Scan scan;
-    scan.T_map_sensor.R << 0, -1, 0, 1, 0, 0, 0, 0, 1;
-    scan.T_map_sensor.t << 1.03, 0.53, 0.73;
-    for (int i = -50; i <= 50; ++i)
-        for (int j = -50; j <= 50; ++j) {
-            const Vector3d p_map(kWall_m, 0.53 + 0.02 * i, 0.73 + 0.02 * j);
-            const Eigen::Vector3f p =
-                (scan.T_map_sensor.R.transpose() * (p_map - scan.T_map_sensor.t))
-                    .cast<float>();
-            scan.pushBack(p.x(), p.y(), p.z());
-        }
-    return scan;
-}
-
-Answer ask(const Baseline& map, double x, double y = 0.53, double z = 0.73) {
-    const Vector3d p(x, y, z);
-    Answer answer;
-    map.query(&p, 1, &answer);
-    return answer;
 }
 
 /// Whether all voxels of a cube are known and of one mind, and the mean of what they know.

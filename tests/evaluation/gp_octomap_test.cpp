@@ -7,6 +7,7 @@
 
 #include "hgmm/evaluation/gp_octomap_baseline.h"
 #include "hgmm/evaluation/split.h"
+#include "voxel_centres.h"
 
 using namespace hgmm::evaluation;
 
@@ -112,14 +113,6 @@ GpBelief committee(const std::vector<GpBelief>& members, const GpOctomapParams& 
 void expectBelief(const GpBelief& is, const GpBelief& wanted, const Vector3d& at) {
     EXPECT_NEAR(is.mean, wanted.mean, 2e-5) << at.transpose();
     EXPECT_NEAR(is.variance, wanted.variance, 2e-6) << at.transpose();
-}
-
-/// Calls f with the centre of each voxel within [low, high), edge 0.1 m.
-void forVoxels(const Vector3d& low, const Vector3d& high,
-               const std::function<void(const Vector3d&)>& f) {
-    for (double x = low.x() + 0.05; x < high.x(); x += 0.1)
-        for (double y = low.y() + 0.05; y < high.y(); y += 0.1)
-            for (double z = low.z() + 0.05; z < high.z(); z += 0.1) f({x, y, z});
 }
 
 }  // namespace

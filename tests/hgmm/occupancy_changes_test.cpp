@@ -12,12 +12,12 @@ using namespace testing;
 using test::uniform;
 
 /// What a map says of points: shares of them that are more likely than not.
-struct Shares {
+struct MeanShares {
     double occupied = 0, free = 0;
 };
 
-Shares sharesOf(const Map& map, const std::vector<Eigen::Vector3d>& points) {
-    Shares shares;
+MeanShares sharesOf(const Map& map, const std::vector<Eigen::Vector3d>& points) {
+    MeanShares shares;
     for (const Eigen::Vector3d& p : points) {
         const Occupancy o = map.occupancy(p);
         shares.occupied += (o.occupied > 0.5F) / double(points.size());
@@ -67,7 +67,7 @@ TEST(OccupancyChanges, ARemovedBoxIsFreeWithinTenScans) {
             for (double z = 0.6; z <= 0.9; z += 0.05) shadow.emplace_back(4.0, y, z);
         const auto inside = volumeOf(box, -0.05);
         int scans = 0;
-        Shares place = sharesOf(map, inside);
+        MeanShares place = sharesOf(map, inside);
         while (scans < 30 && place.free < 0.95) {
             map.insert(emptyRoom().scan(walk(20 + scans), 300 + scans));
             place = sharesOf(map, inside);
@@ -144,7 +144,7 @@ TEST(OccupancyChanges, AStaticRoomLosesNothingUnderPoseNoise) {
         const Eigen::Vector3d u = p.normalized();
         hits.push_back(probe.T_map_sensor.t + scanner.range(probe.T_map_sensor.t, u) * u);
     }
-    const Shares surfaces = sharesOf(map, hits);
+    const MeanShares surfaces = sharesOf(map, hits);
     std::cout << "static room, 100 shaken scans: " << map.mixture().size()
               << " components, " << contradicted << " contradictions, " << removed
               << " removed; " << 100 * surfaces.occupied << " % of surfaces occupied, "

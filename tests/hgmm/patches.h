@@ -11,13 +11,13 @@ namespace hgmm::testing {
 
 constexpr double kDegree = M_PI / 180.0;
 
-inline double uniform(std::mt19937_64& random) {
+inline double unitUniform(std::mt19937_64& random) {
     return double(random() >> 11U) * 0x1p-53;
 }
 
 inline double normal(std::mt19937_64& random) {
-    return std::sqrt(-2.0 * std::log(1.0 - uniform(random))) *
-           std::cos(2.0 * M_PI * uniform(random));
+    return std::sqrt(-2.0 * std::log(1.0 - unitUniform(random))) *
+           std::cos(2.0 * M_PI * unitUniform(random));
 }
 
 inline Eigen::Vector3d direction(std::mt19937_64& random) {
@@ -60,8 +60,8 @@ inline void tile(const Eigen::Vector3d& centre, const Eigen::Vector3d& a,
     const Eigen::Vector3d ua = a.normalized(), ub = b.normalized();
     for (double x = -a.norm() + edge_m / 2; x < a.norm(); x += edge_m)
         for (double y = -b.norm() + edge_m / 2; y < b.norm(); y += edge_m)
-            mixture.pushBack(patch(centre + (x + edge_m * (uniform(random) - 0.5)) * ua +
-                                       (y + edge_m * (uniform(random) - 0.5)) * ub,
+            mixture.pushBack(patch(centre + (x + edge_m * (unitUniform(random) - 0.5)) * ua +
+                                       (y + edge_m * (unitUniform(random) - 0.5)) * ub,
                                    ua.cross(ub), edge_m));
 }
 

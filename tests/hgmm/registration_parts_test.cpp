@@ -26,8 +26,8 @@ TEST(RegistrationParts, DerivativesAreThoseOfTheCost) {
     std::mt19937_64 random(1);
     for (int trial = 0; trial < 30; ++trial) {
         ComponentPair pair;
-        pair.arm = 3 * uniform(random) * direction(random);
-        pair.between = uniform(random) * direction(random);
+        pair.arm = 3 * unitUniform(random) * direction(random);
+        pair.between = unitUniform(random) * direction(random);
         pair.covariance = patch(Eigen::Vector3d::Zero(), direction(random), 1.0).covariance;
         pair.widened = patch(Eigen::Vector3d::Zero(), direction(random), 0.5).covariance +
                        0.1 * Eigen::Matrix3d::Identity();

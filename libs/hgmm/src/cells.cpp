@@ -32,7 +32,7 @@ std::vector<LatticeCell> assignCells(const Mixture<3>& samples,
         const double edge =
             std::max(params.minCell_m,
                      params.cellAtOneMetre_m * std::sqrt((p - sensorOrigin).norm()));
-        cells[i] = LatticeCell::at(p, std::ilogb(edge));
+        cells[i] = LatticeCell::at(p, octaveOf(edge));
         ++count[cells[i]];
     }
     for (int promotion = 0; promotion < kMaxPromotions; ++promotion) {
@@ -58,8 +58,8 @@ Neighbourhoods findNeighbourhoods(const Mixture<3>& samples, const Mixture<3>& m
         const auto first = static_cast<std::ptrdiff_t>(result.component.size());
         result.component.push_back(own[i]);
         index.visitCandidates(p[0], p[1], p[2], [&](std::uint32_t j) {
-            if (j != own[i] && index.factor(j).squaredMahalanobis(p) <=
-                                   kNeighbourSigmas * kNeighbourSigmas)
+            if (j != own[i] &&
+                index.factor(j).isWithin(p, kNeighbourSigmas * kNeighbourSigmas))
                 result.component.push_back(j);
         });
         std::sort(result.component.begin() + first, result.component.end());

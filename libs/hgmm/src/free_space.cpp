@@ -30,14 +30,13 @@ class ScanCells {
         const Eigen::Vector3d ray = sensorOrigin_ - bundle.mean;
         const double range = ray.norm(), end = range - kSensorClearance_m;
         const double reach = band_.reach(range);
-        const int smallest = std::ilogb(cellAtOneMetre_m_ * std::sqrt(range));
+        const int smallest = octaveOf(cellAtOneMetre_m_ * std::sqrt(range));
         const double density =
             bundle.support * band_.freePerMetre(range) * band_.width(range);
         for (double w = reach; w < end;) {
             const LatticeCell cell =
-                cellFor(bundle.mean + ray * (w / range), std::ilogb(w), smallest);
-            const double to =
-                std::min(end, w + kSlabPerCell * std::ldexp(1.0, cell.octave));
+                cellFor(bundle.mean + ray * (w / range), octaveOf(w), smallest);
+            const double to = std::min(end, w + kSlabPerCell * powerOfTwo(cell.octave));
             Gaussian<4> slab = freeSlab(bundle, sensorOrigin_, w, to);
             slab.support = density * std::log(to / w);
             add(slab, LatticeCell::at(slab.mean.head<3>(), cell.octave));

@@ -97,12 +97,12 @@ void bridgeGaps(Mixture<3>& samples, const CellParams& params) {
         const Eigen::Vector3d p(samples.mean[0][i], samples.mean[1][i], samples.mean[2][i]);
         const double edge =
             std::max(params.minCell_m, params.cellAtOneMetre_m * std::sqrt(p.norm()));
-        cells[i] = LatticeCell::at(p, std::ilogb(edge));
+        cells[i] = LatticeCell::at(p, octaveOf(edge));
         contents[0][cells[i]].add(p);
     }
     std::unordered_map<LatticeCell, Eigen::Matrix3d, LatticeCellHash> bridges;
     for (const auto& [cell, own] : contents[0])
-        if (!own.spreadsTwice(kLeastSpread * std::ldexp(1.0, cell.octave)))
+        if (!own.spreadsTwice(kLeastSpread * powerOfTwo(cell.octave)))
             bridges.emplace(cell, Eigen::Matrix3d::Zero());
     if (bridges.empty()) return;
 
@@ -114,8 +114,7 @@ void bridgeGaps(Mixture<3>& samples, const CellParams& params) {
         for (int d = 1; d <= kGapDoublings; ++d) {
             around = around.parent();
             const Content& content = contents[d].at(around);
-            if (!content.spreadsTwice(kLeastSpread * std::ldexp(1.0, around.octave)))
-                continue;
+            if (!content.spreadsTwice(kLeastSpread * powerOfTwo(around.octave))) continue;
             wider = bridge(contents[0].at(cell), content);
             break;
         }

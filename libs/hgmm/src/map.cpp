@@ -25,7 +25,9 @@ Mixture<3> novelComponents(const Mixture<3>& samples, const Eigen::Vector3d& sen
     const InitialMixture initial = initialiseFromCells(samples, sensorOrigin, params.cells);
     const Mixture<3> reference =
         fitSparse(samples, initial.mixture, initial.neighbourhoods, params.em).mixture;
-    return generateHierarchy(reference, params.hierarchy).levels.front();
+    HierarchyParams toThreshold = params.hierarchy;
+    toThreshold.levels = 1;
+    return generateHierarchy(reference, toThreshold).levels.front();
 }
 
 }  // namespace

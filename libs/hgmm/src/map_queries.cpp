@@ -11,7 +11,7 @@ namespace hgmm {
 namespace {
 
 /// Points handled by one task.
-constexpr std::size_t kChunk = 256;
+constexpr std::size_t kPointsPerChunk = 256;
 
 void requireLevel(std::size_t level, std::size_t count) {
     if (level >= count)
@@ -64,8 +64,10 @@ void Map::occupancy(const Eigen::Vector3d* points_map, std::size_t n, Occupancy*
     }
     const OccupancyModel& model = derived_->occupancy(*this, level);
 #pragma omp parallel for schedule(dynamic)
-    for (std::size_t chunk = 0; chunk < (n + kChunk - 1) / kChunk; ++chunk)
-        for (std::size_t i = chunk * kChunk; i < std::min(n, (chunk + 1) * kChunk); ++i)
+    for (std::size_t chunk = 0; chunk < (n + kPointsPerChunk - 1) / kPointsPerChunk;
+         ++chunk)
+        for (std::size_t i = chunk * kPointsPerChunk;
+             i < std::min(n, (chunk + 1) * kPointsPerChunk); ++i)
             answers[i] = model.at(points_map[i] - origin_);
 }
 

@@ -3,10 +3,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "goldberger.h"
 #include "hgmm/divergence.h"
+#include "hgmm/lattice.h"
 #include "storable.h"
 
 namespace hgmm {
@@ -15,7 +17,8 @@ namespace hgmm {
 ///
 /// A pair can only merge if min(KL(f || g), KL(g || f)) < lambda, and KL(f || g) is at
 /// least (mu_f - mu_g)_a^2 / (2 Sigma_g,aa) along any axis a. Partners are therefore sought
-/// in a window of the components sorted along one axis.
+/// in windows of the components sorted along one axis, one window for each class of size,
+/// so that a few wide components do not widen the search for all.
 template <int D>
 class MergeSweep {
  public:
@@ -29,6 +32,11 @@ class MergeSweep {
     const std::vector<bool>& merged() const { return merged_; }
 
  private:
+    /// Places begin .. end hold parts of one octave of variance along the axis.
+    struct SizeClass {
+        std::size_t begin, end;
+        double widest;  ///< largest variance along the axis [m^2]
+    };
     struct Part {
         Gaussian<D> gaussian;
         WhitenedGaussian<D> whitened;
@@ -40,6 +48,8 @@ class MergeSweep {
     /// Later components than `after` that pass the bound against part i, in rising order.
     void findCandidates(const Part& part, std::size_t after);
     bool passesBound(const Gaussian<D>& g, std::size_t place) const;
+    /// Groups parts by the octave of their variance along the axis, each sorted along it.
+    void sortIntoClasses();
     bool similar(const Part& a, const Part& b) const;
 
     static constexpr double kLeastVariance = 1e-12;  ///< factoring raises pivots to this
@@ -48,10 +58,10 @@ class MergeSweep {
     double twiceSimilarity_;  ///< with a margin for rounding
     double perTwiceSimilarity_;
     int axis_ = 0;
-    double widest_ = 0;  ///< largest variance along the axis [m^2]
     std::vector<Part> parts_;
-    /// What the bound needs of the parts as they were at first, sorted along the axis, so
-    /// that a search streams through it. Merged parts are only ever the one that searches.
+    std::vector<SizeClass> classes_;
+    /// What the bound needs of the parts as they were at first, by place, so that a search
+    /// streams through it. Merged parts are only ever the one that searches.
     std::array<std::vector<double>, D> means_, variances_;
     std::vector<std::uint32_t> order_;  ///< part at each place
     std::vector<std::uint32_t> candidates_;
@@ -71,17 +81,33 @@ MergeSweep<D>::MergeSweep(const Mixture<D>& mixture, double similarity)
         const Gaussian<D> g = mixture[i];
         parts_.push_back({g, WhitenedGaussian<D>(g)});
         order_.push_back(static_cast<std::uint32_t>(i));
-        widest_ = std::max(widest_, g.covariance(axis_, axis_));
     }
-    const std::vector<float>& along = mixture.mean[axis_];
+    sortIntoClasses();
+}
+
+template <int D>
+void MergeSweep<D>::sortIntoClasses() {
+    const auto variance = [this](std::uint32_t i) {
+        return parts_[i].gaussian.covariance(axis_, axis_) + kLeastVariance;
+    };
+    std::vector<int> octaves;
+    for (const std::uint32_t i : order_) octaves.push_back(octaveOf(variance(i)));
     std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return along[a] != along[b] ? along[a] < along[b] : a < b;
+        const double alongA = parts_[a].gaussian.mean[axis_],
+                     alongB = parts_[b].gaussian.mean[axis_];
+        return std::tie(octaves[a], alongA, a) < std::tie(octaves[b], alongB, b);
     });
-    for (const std::uint32_t i : order_)
+    for (std::size_t place = 0; place < order_.size(); ++place) {
+        const std::uint32_t i = order_[place];
+        if (place == 0 || octaves[i] != octaves[order_[place - 1]])
+            classes_.push_back({place, place, 0.0});
+        classes_.back().end = place + 1;
+        classes_.back().widest = std::max(classes_.back().widest, variance(i));
         for (int d = 0; d < D; ++d) {
             means_[d].push_back(parts_[i].gaussian.mean[d]);
             variances_[d].push_back(parts_[i].gaussian.covariance(d, d) + kLeastVariance);
         }
+    }
 }
 
 template <int D>
@@ -123,16 +149,19 @@ void MergeSweep<D>::findCandidates(const Part& part, std::size_t after) {
     candidates_.clear();
     const Gaussian<D>& g = part.gaussian;
     const double middle = g.mean[axis_];
-    const double reach =
-        std::sqrt(twiceSimilarity_ *
-                  (std::max(widest_, g.covariance(axis_, axis_)) + kLeastVariance));
+    const double own = g.covariance(axis_, axis_) + kLeastVariance;
     const std::vector<double>& along = means_[axis_];
-    auto place = static_cast<std::size_t>(
-        std::lower_bound(along.begin(), along.end(), middle - reach) - along.begin());
-    for (; place < along.size() && along[place] <= middle + reach; ++place) {
-        if (!passesBound(g, place)) continue;
-        const std::uint32_t j = order_[place];
-        if (j > after && !parts_[j].absorbed) candidates_.push_back(j);
+    for (const SizeClass& size : classes_) {
+        const double reach = std::sqrt(twiceSimilarity_ * std::max(size.widest, own));
+        auto place = static_cast<std::size_t>(
+            std::lower_bound(along.begin() + std::ptrdiff_t(size.begin),
+                             along.begin() + std::ptrdiff_t(size.end), middle - reach) -
+            along.begin());
+        for (; place < size.end && along[place] <= middle + reach; ++place) {
+            if (!passesBound(g, place)) continue;
+            const std::uint32_t j = order_[place];
+            if (j > after && !parts_[j].absorbed) candidates_.push_back(j);
+        }
     }
     std::sort(candidates_.begin(), candidates_.end());
 }

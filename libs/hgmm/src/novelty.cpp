@@ -11,7 +11,7 @@ namespace {
 
 /// Samples handled by one task: fixed, so that results do not depend on the number of
 /// threads.
-constexpr std::size_t kChunk = 256;
+constexpr std::size_t kSamplesPerChunk = 256;
 
 /// Whether a component was seen from the side of `direction` (towards a sensor).
 bool sameSide(const ComponentIndex::Factor& factor, const Eigen::Vector3d& view,
@@ -40,7 +40,7 @@ void findNeighbours(const Mixture<3>& samples, std::size_t begin, std::size_t en
                 sides->sensorOrigin - Eigen::Vector3d(point[0], point[1], point[2]);
         index.visitCandidates(point[0], point[1], point[2], [&](std::uint32_t j) {
             const ComponentIndex::Factor& factor = index.factor(j);
-            if (factor.squaredMahalanobis(point) > maxSquared) return;
+            if (!factor.isWithin(point, maxSquared)) return;
             if (sides != nullptr &&
                 !sameSide(factor, sides->views[j].direction, towardsSensor))
                 return;
@@ -62,20 +62,22 @@ NoveltySplit splitByNovelty(const Mixture<3>& samples, const ComponentIndex& ind
                             const NoveltyParams& params, const Sides* sides) {
     const auto maxSquared =
         static_cast<float>(params.maxMahalanobis * params.maxMahalanobis);
-    const std::size_t chunks = (samples.size() + kChunk - 1) / kChunk;
+    const std::size_t chunks = (samples.size() + kSamplesPerChunk - 1) / kSamplesPerChunk;
     std::vector<Neighbourhoods> found(chunks);
 #pragma omp parallel for schedule(dynamic)
     for (std::size_t c = 0; c < chunks; ++c) {
         found[c].begin.push_back(0);
-        findNeighbours(samples, c * kChunk, std::min(samples.size(), (c + 1) * kChunk),
-                       index, maxSquared, sides, found[c]);
+        findNeighbours(samples, c * kSamplesPerChunk,
+                       std::min(samples.size(), (c + 1) * kSamplesPerChunk), index,
+                       maxSquared, sides, found[c]);
     }
 
     NoveltySplit split;
     split.neighbourhoods.begin.push_back(0);
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        const Neighbourhoods& n = found[i / kChunk];
-        const std::uint32_t first = n.begin[i % kChunk], last = n.begin[i % kChunk + 1];
+        const Neighbourhoods& n = found[i / kSamplesPerChunk];
+        const std::uint32_t first = n.begin[i % kSamplesPerChunk],
+                            last = n.begin[i % kSamplesPerChunk + 1];
         if (first == last) {
             split.novel.push_back(static_cast<std::uint32_t>(i));
             continue;

@@ -18,14 +18,14 @@ constexpr double kMaxAspect = 30.0;
 /// Thickness of a surface that is taken for exact [m].
 constexpr double kThinnest_m = 1e-3;
 /// Source components that one thread sums at a time.
-constexpr std::size_t kChunk = 32;
+constexpr std::size_t kPairsPerChunk = 32;
 
 bool isFinite(const Gaussian<3>& g) {
     return g.mean.allFinite() && g.covariance.allFinite();
 }
 
 std::size_t chunksOf(std::size_t n) {
-    return (n + kChunk - 1) / kChunk;
+    return (n + kPairsPerChunk - 1) / kPairsPerChunk;
 }
 
 Eigen::Matrix3d widenedShape(const Eigen::Matrix3d& axes, const Eigen::Vector3d& variances,
@@ -124,8 +124,8 @@ std::vector<Neighbours> TargetLayers::associate(const RegistrationSource& source
     const auto chunks = static_cast<std::int64_t>(chunksOf(source.size()));
 #pragma omp parallel for schedule(static)
     for (std::int64_t chunk = 0; chunk < chunks; ++chunk) {
-        const std::size_t first = std::size_t(chunk) * kChunk;
-        const std::size_t last = std::min(first + kChunk, source.size());
+        const std::size_t first = std::size_t(chunk) * kPairsPerChunk;
+        const std::size_t last = std::min(first + kPairsPerChunk, source.size());
         for (std::size_t i = first; i < last; ++i) {
             const Eigen::Vector3f p =
                 (T_target_centre.R * source.mean[i] + T_target_centre.t).cast<float>();
@@ -166,9 +166,9 @@ Sum TargetLayers::sumOverPairs(const RegistrationSource& source,
     const auto chunks = static_cast<std::int64_t>(sums.size());
 #pragma omp parallel for schedule(static)
     for (std::int64_t chunk = 0; chunk < chunks; ++chunk) {
-        const std::size_t first = std::size_t(chunk) * kChunk;
+        const std::size_t first = std::size_t(chunk) * kPairsPerChunk;
         forEachPair(source, neighbours, T_target_centre, first,
-                    std::min(first + kChunk, source.size()),
+                    std::min(first + kPairsPerChunk, source.size()),
                     [&](const ComponentPair& pair, std::uint32_t) {
                         add(pair, sums[std::size_t(chunk)]);
                     });

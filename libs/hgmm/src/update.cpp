@@ -12,20 +12,42 @@ namespace {
 
 /// What one scan adds to a component: responsibility-weighted sums about its old mean.
 struct Addition {
+    std::uint32_t component;
+    double logSupport;  ///< before the scan
+    Eigen::Vector3d oldMean;
     double support = 0;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     Eigen::Matrix3d sumOuter = Eigen::Matrix3d::Zero();
+
+    void add(double share, const Gaussian<3>& sample) {
+        const Eigen::Vector3d d = sample.mean - oldMean;
+        support += share;
+        sum += share * d;
+        sumOuter += share * (sample.covariance + d * d.transpose());
+    }
 };
+
+/// One for each component that is some sample's neighbour, rising.
+std::vector<Addition> emptyAdditions(const Mixture<3>& mixture, const NoveltySplit& split) {
+    std::vector<std::uint32_t> components = split.neighbourhoods.component;
+    std::sort(components.begin(), components.end());
+    components.erase(std::unique(components.begin(), components.end()), components.end());
+    std::vector<Addition> additions;
+    additions.reserve(components.size());
+    for (const std::uint32_t j : components)
+        additions.push_back({j, std::log(double(mixture.support[j])), mixture[j].mean});
+    return additions;
+}
 
 /// p_ij of eq. (3.19) over a sample's neighbourhood: eq. (3.8) in log space. Supports stand
 /// for the weights pi_j = S_j / N, whose common N cancels.
-void responsibilities(const Mixture<3>& mixture, const ComponentIndex& index,
-                      const std::uint32_t* first, const std::uint32_t* last,
+void responsibilities(const std::vector<Addition*>& neighbours, const ComponentIndex& index,
                       const float* point, std::vector<double>& p) {
     p.clear();
     double largest = -std::numeric_limits<double>::infinity();
-    for (const std::uint32_t* j = first; j != last; ++j) {
-        p.push_back(std::log(double(mixture.support[*j])) + index.factor(*j).logPdf(point));
+    for (const Addition* neighbour : neighbours) {
+        p.push_back(neighbour->logSupport +
+                    index.factor(neighbour->component).logPdf(point));
         largest = std::max(largest, p.back());
     }
     double sum = 0;
@@ -56,40 +78,31 @@ Gaussian<3> shareOf(const Gaussian<3>& old, const Addition& a) {
 
 KnownUpdate updateKnown(Mixture<3>& mixture, const ComponentIndex& index,
                         const Mixture<3>& samples, const NoveltySplit& split) {
-    std::vector<Addition> additions;
-    std::vector<std::uint32_t> changed = split.neighbourhoods.component;
-    std::sort(changed.begin(), changed.end());
-    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-    additions.resize(changed.size());
-
+    std::vector<Addition> additions = emptyAdditions(mixture, split);
+    std::vector<Addition*> neighbours;
     std::vector<double> p;
     for (std::size_t k = 0; k < split.known.size(); ++k) {
         const Gaussian<3> sample = samples[split.known[k]];
         const float point[3] = {float(sample.mean[0]), float(sample.mean[1]),
                                 float(sample.mean[2])};
-        const std::uint32_t* components = split.neighbourhoods.component.data();
-        const std::uint32_t* first = components + split.neighbourhoods.begin[k];
-        const std::uint32_t* last = components + split.neighbourhoods.begin[k + 1];
-        responsibilities(mixture, index, first, last, point, p);
-        for (const std::uint32_t* j = first; j != last; ++j) {
-            const auto slot =
-                std::lower_bound(changed.begin(), changed.end(), *j) - changed.begin();
-            Addition& a = additions[static_cast<std::size_t>(slot)];
-            const double support = p[static_cast<std::size_t>(j - first)] * sample.support;
-            const Eigen::Vector3d d = sample.mean - mixture[*j].mean;
-            a.support += support;
-            a.sum += support * d;
-            a.sumOuter += support * (sample.covariance + d * d.transpose());
-        }
+        neighbours.clear();
+        for (std::uint32_t e = split.neighbourhoods.begin[k];
+             e < split.neighbourhoods.begin[k + 1]; ++e)
+            neighbours.push_back(&*std::lower_bound(
+                additions.begin(), additions.end(), split.neighbourhoods.component[e],
+                [](const Addition& a, std::uint32_t j) { return a.component < j; }));
+        responsibilities(neighbours, index, point, p);
+        for (std::size_t n = 0; n < neighbours.size(); ++n)
+            neighbours[n]->add(p[n] * sample.support, sample);
     }
     KnownUpdate result;
-    for (std::size_t c = 0; c < changed.size(); ++c) {
+    for (const Addition& addition : additions) {
         // A component far less likely than its neighbours may be given next to nothing.
-        if (!(additions[c].support > 1e-6)) continue;
-        const Gaussian<3> old = mixture[changed[c]];
-        mixture.set(changed[c], updated(old, additions[c]));
-        result.changed.push_back(changed[c]);
-        result.shares.push_back(shareOf(old, additions[c]));
+        if (!(addition.support > 1e-6)) continue;
+        const Gaussian<3> old = mixture[addition.component];
+        mixture.set(addition.component, updated(old, addition));
+        result.changed.push_back(addition.component);
+        result.shares.push_back(shareOf(old, addition));
     }
     return result;
 }

@@ -32,6 +32,20 @@ class WhitenedGaussian {
         return sum;
     }
 
+    /// squaredMahalanobis(x) <= maxSquared, given up at the first row that exceeds it: most
+    /// of an index's candidates are settled by one coordinate.
+    bool isWithin(const Scalar* x, Scalar maxSquared) const {
+        Scalar sum = 0;
+        for (int row = 0; row < D; ++row) {
+            Scalar whitened = 0;
+            for (int col = 0; col <= row; ++col)
+                whitened += factor_[lower(row, col)] * (x[col] - mean_[col]);
+            sum += whitened * whitened;
+            if (!(sum <= maxSquared)) return false;
+        }
+        return true;
+    }
+
     /// log N(x | mu, Sigma) [nat], thesis eq. (3.3).
     Scalar logPdf(const Scalar* x) const {
         return logNormalizer_ - Scalar(0.5) * squaredMahalanobis(x);
