@@ -44,7 +44,7 @@ double ModalityMap::logLikelihood(double value, const Eigen::Vector3d& point) co
 
 std::size_t ModalityMap::savedBytes() const {
     std::vector<std::uint8_t> bytes;
-    encodeModalities(*group_, bytes);
+    encodeChannels(group_->mixture(), bytes);
     return bytes.size() / group_->names().size();
 }
 
