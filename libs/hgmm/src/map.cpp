@@ -8,6 +8,7 @@
 #include "hgmm/gaps.h"
 #include "hgmm/update.h"
 #include "map_derived.h"
+#include "run_both.h"
 #include "storable.h"
 
 namespace hgmm {
@@ -40,6 +41,16 @@ void MapParams::validate() const {
     hierarchy.validate();
     occupancy.validate();
     contradiction.validate();
+    modality.validate();
+    if (modalities.size() > kMaxModalities)
+        throw std::invalid_argument("modalities: " + std::to_string(modalities.size()) +
+                                    " names, at most " + std::to_string(kMaxModalities));
+    for (auto name = modalities.begin(); name != modalities.end(); ++name) {
+        if (name->empty() || name->size() > 255)
+            throw std::invalid_argument("modalities: names must have 1 to 255 characters");
+        if (std::find(modalities.begin(), name, *name) != name)
+            throw std::invalid_argument("modalities: '" + *name + "' is named twice");
+    }
 }
 
 Map::Map(const MapParams& params) : derived_(std::make_unique<Derived>()) {
@@ -66,12 +77,17 @@ void Map::setParams(const MapParams& params) {
             "freeSpaceModel: a map that holds components keeps the model it was built "
             "with");
     params_ = params;
+    model_.modalities.configure(params_);
     derived_ = std::make_unique<Derived>();
 }
 
 bool Map::freePerComponent() const {
     return params_.occupancy.freeSpace.freeSpaceModel ==
            static_cast<int>(FreeSpaceModel::perComponent);
+}
+
+bool Map::isBlank() const {
+    return empty() && model_.modalities.groups().empty();
 }
 
 void Map::clear() {
@@ -81,15 +97,26 @@ void Map::clear() {
 InsertReport Map::insert(const Scan& scan) {
     scan.validate();
     InsertReport report;
+    const Eigen::Vector3d origin = isBlank() ? latticePoint(scan.T_map_sensor.t) : origin_;
+    const Pose T_local_sensor{scan.T_map_sensor.R, scan.T_map_sensor.t - origin};
+    const auto insertPlaces = [&] { insertSpace(scan, T_local_sensor, report); };
+    const auto insertModalities = [&] {
+        model_.modalities.insert(scan, T_local_sensor, params_);
+    };
+    if (params_.modalities.empty() || scan.channels.empty())
+        insertPlaces();
+    else
+        runBoth(insertPlaces, insertModalities);
+    if (report.samples > 0) origin_ = origin;
+    return report;
+}
+
+void Map::insertSpace(const Scan& scan, const Pose& T_local_sensor, InsertReport& report) {
     Mixture<3> samples_sensor = filterScan(scan, params_.filter, &report.points);
     bridgeGaps(samples_sensor, params_.cells);
     report.samples = samples_sensor.size();
-    if (samples_sensor.empty()) return report;
-
-    if (empty()) origin_ = latticePoint(scan.T_map_sensor.t);
-    const Pose T_local_sensor{scan.T_map_sensor.R, scan.T_map_sensor.t - origin_};
+    if (samples_sensor.empty()) return;
     const Mixture<3> samples = transformed(samples_sensor, T_local_sensor);
-
     const std::vector<RayBundle> bundles =
         insertSurfaces(samples, T_local_sensor.t, report);
     if (!freePerComponent())
@@ -99,7 +126,6 @@ InsertReport Map::insert(const Scan& scan) {
             derived_->updateFree(*this, i);
     contradict(samples, T_local_sensor.t, report);
     derived_->finish(*this);
-    return report;
 }
 
 std::vector<RayBundle> Map::insertSurfaces(const Mixture<3>& samples,
@@ -195,12 +221,13 @@ std::size_t Map::liveBytes() const {
     const std::size_t perSurface = sizeof(float) * (1 + 3 + Mixture<3>::packed + 4);
     return sizeof(Map) + sizeof(Derived) + model_.surfaces.support.capacity() * perSurface +
            model_.freeOfSurfaces.size() * sizeof(float) * (1 + 4 + Mixture<4>::packed) +
-           model_.freeSpace.liveBytes() + derived_->liveBytes();
+           model_.freeSpace.liveBytes() + model_.modalities.liveBytes() +
+           derived_->liveBytes();
 }
 
 bool Map::Model::operator==(const Model& o) const {
     return surfaces == o.surfaces && views == o.views && freeSpace == o.freeSpace &&
-           freeOfSurfaces == o.freeOfSurfaces;
+           freeOfSurfaces == o.freeOfSurfaces && modalities == o.modalities;
 }
 
 bool Map::operator==(const Map& o) const {
@@ -210,6 +237,7 @@ bool Map::operator==(const Map& o) const {
     std::size_t k = 0;
     forEachField(o.params_,
                  [&](const char*, const auto& v) { sameParams &= mine[k++] == double(v); });
+    sameParams &= params_.modalities == o.params_.modalities;
     return sameParams && origin_ == o.origin_ && model_ == o.model_;
 }
 
