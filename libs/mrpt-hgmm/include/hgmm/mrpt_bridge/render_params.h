@@ -3,13 +3,13 @@
 
 namespace hgmm::mrpt_bridge {
 
-/// What the colour of an ellipsoid shows, from blue to red.
+/// What the colour of an ellipsoid shows, from blue to red but for kModality.
 enum class EllipsoidColour : int {
     kHeight = 0,     ///< of its mean, from the lowest to the highest drawn
     kWeight = 1,     ///< logarithm of its weight, from the lightest to the heaviest drawn
     kOccupied = 2,   ///< P(occ) at its mean, from 0 to 1 (thesis eq. 4.15)
     kDeviation = 3,  ///< sqrt(Var[W]) at its mean, from the surest to the least sure drawn
-    kModality = 4,   ///< what RenderParams::modality names
+    kModality = 4,   ///< what RenderParams::modality names; also of occupied voxels
 };
 
 /// How a map is drawn: as ellipsoids and as voxels.
