@@ -6,7 +6,6 @@
 #include <unordered_map>
 
 #include "hgmm/component_index.h"
-#include "hgmm/lattice.h"
 #include "hgmm/require.h"
 
 namespace hgmm {
@@ -19,32 +18,6 @@ constexpr int kMaxPromotions = 2;
 /// Samples see components up to this distance in the E-step [sigma]: the far corner of a
 /// touching cell of evenly spread samples lies at 3 sqrt(3) = 5.2.
 constexpr float kNeighbourSigmas = 6.F;
-
-/// The cell of each sample: as small as the sample's range says, but with `minSamples` in
-/// it where `kMaxPromotions` doublings can reach them.
-std::vector<LatticeCell> assignCells(const Mixture<3>& samples,
-                                     const Eigen::Vector3d& sensorOrigin,
-                                     const CellParams& params) {
-    std::vector<LatticeCell> cells(samples.size());
-    std::unordered_map<LatticeCell, int, LatticeCellHash> count;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        const Eigen::Vector3d p = samples[i].mean;
-        const double edge =
-            std::max(params.minCell_m,
-                     params.cellAtOneMetre_m * std::sqrt((p - sensorOrigin).norm()));
-        cells[i] = LatticeCell::at(p, std::ilogb(edge));
-        ++count[cells[i]];
-    }
-    for (int promotion = 0; promotion < kMaxPromotions; ++promotion) {
-        std::unordered_map<LatticeCell, int, LatticeCellHash> next;
-        for (std::size_t i = 0; i < samples.size(); ++i) {
-            if (count[cells[i]] < params.minSamples) cells[i] = cells[i].parent();
-            ++next[cells[i]];
-        }
-        count = std::move(next);
-    }
-    return cells;
-}
 
 /// Each sample's own component and the others whose ellipsoid it is in.
 Neighbourhoods findNeighbourhoods(const Mixture<3>& samples, const Mixture<3>& mixture,
@@ -76,10 +49,34 @@ void CellParams::validate() const {
     requireInRange("minSamples", minSamples, 1, 1e6);
 }
 
+std::vector<LatticeCell> assignCells(const std::array<std::vector<float>, 3>& means,
+                                     const Eigen::Vector3d& sensorOrigin,
+                                     const CellParams& params) {
+    std::vector<LatticeCell> cells(means[0].size());
+    std::unordered_map<LatticeCell, int, LatticeCellHash> count;
+    for (std::size_t i = 0; i < means[0].size(); ++i) {
+        const Eigen::Vector3d p(means[0][i], means[1][i], means[2][i]);
+        const double edge =
+            std::max(params.minCell_m,
+                     params.cellAtOneMetre_m * std::sqrt((p - sensorOrigin).norm()));
+        cells[i] = LatticeCell::at(p, std::ilogb(edge));
+        ++count[cells[i]];
+    }
+    for (int promotion = 0; promotion < kMaxPromotions; ++promotion) {
+        std::unordered_map<LatticeCell, int, LatticeCellHash> next;
+        for (std::size_t i = 0; i < means[0].size(); ++i) {
+            if (count[cells[i]] < params.minSamples) cells[i] = cells[i].parent();
+            ++next[cells[i]];
+        }
+        count = std::move(next);
+    }
+    return cells;
+}
+
 InitialMixture initialiseFromCells(const Mixture<3>& samples,
                                    const Eigen::Vector3d& sensorOrigin,
                                    const CellParams& params) {
-    const std::vector<LatticeCell> cells = assignCells(samples, sensorOrigin, params);
+    const std::vector<LatticeCell> cells = assignCells(samples.mean, sensorOrigin, params);
     std::unordered_map<LatticeCell, std::uint32_t, LatticeCellHash> componentOf;
     std::vector<std::uint32_t> own(samples.size());
     std::vector<Gaussian<3>> components;

@@ -1,18 +1,16 @@
 #include "hgmm/filter.h"
 
+#include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdint>
-#include <cstring>
 
 #include "hgmm/require.h"
+#include "leaf_table.h"
 
 namespace hgmm {
 
 namespace {
 
-/// Sums over the points of one leaf, taken about its first point so that they keep their
-/// digits far from the sensor.
+/// Moments of the points of one leaf.
 struct Sums {
     double count = 0;
     std::array<double, 3> sum{};
@@ -26,97 +24,7 @@ struct Sums {
     }
 };
 
-struct Leaf {
-    std::uint64_t key = 0;
-    std::array<float, 3> anchor{};
-    Sums sums;
-};
-
-/// Open-addressing table from leaf key to leaf, in order of first appearance.
-class LeafTable {
- public:
-    explicit LeafTable(std::size_t points) {
-        std::size_t slots = 1024;
-        while (slots < points / 8) slots *= 2;
-        slots_.assign(slots, kFree);
-    }
-
-    /// Number of the leaf of a key; a new one is anchored at (x, y, z).
-    std::uint32_t find(std::uint64_t key, float x, float y, float z) {
-        const std::size_t mask = slots_.size() - 1;
-        for (std::size_t slot = hash(key) & mask;; slot = (slot + 1) & mask) {
-            if (slots_[slot] == kFree) {
-                if (2 * (leaves_.size() + 1) > slots_.size()) {
-                    grow();
-                    return find(key, x, y, z);
-                }
-                slots_[slot] = static_cast<std::uint32_t>(leaves_.size());
-                leaves_.push_back({key, {x, y, z}, {}});
-            }
-            if (leaves_[slots_[slot]].key == key) return slots_[slot];
-        }
-    }
-
-    Leaf& operator[](std::uint32_t i) { return leaves_[i]; }
-    const std::vector<Leaf>& leaves() const { return leaves_; }
-
- private:
-    static constexpr std::uint32_t kFree = 0xFFFFFFFFU;
-
-    static std::size_t hash(std::uint64_t key) {
-        key *= 0x9E3779B97F4A7C15ULL;
-        return static_cast<std::size_t>(key ^ (key >> 32U));
-    }
-
-    void grow() {
-        slots_.assign(slots_.size() * 4, kFree);
-        const std::size_t mask = slots_.size() - 1;
-        for (std::uint32_t i = 0; i < leaves_.size(); ++i) {
-            std::size_t slot = hash(leaves_[i].key) & mask;
-            while (slots_[slot] != kFree) slot = (slot + 1) & mask;
-            slots_[slot] = i;
-        }
-    }
-
-    std::vector<std::uint32_t> slots_;
-    std::vector<Leaf> leaves_;
-};
-
-/// floor(log2(v)) of a normal positive number. std::ilogb is a call that would
-/// take a good part of the filter's time.
-int octaveOf(float v) {
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, &v, sizeof(bits));
-    return static_cast<int>(bits >> 23U) - 127;
-}
-
-/// 2^exponent, for exponents of normal numbers.
-float powerOfTwo(int exponent) {
-    const auto bits = static_cast<std::uint32_t>(exponent + 127) << 23U;
-    float v = 0;
-    std::memcpy(&v, &bits, sizeof(v));
-    return v;
-}
-
-/// 19 bits an axis hold any leaf index, at the smallest leaves and 100 km.
-constexpr unsigned kIndexBits = 19;
-
-std::uint64_t leafKey(int octave, float x, float y, float z) {
-    const float perLeaf = powerOfTwo(-octave);
-    constexpr std::uint64_t mask = (1U << kIndexBits) - 1U;
-    const auto index = [&](float v) {
-        // std::floor is a call on processors that cannot be taken for granted.
-        const float leaves = v * perLeaf;
-        const auto towardsZero = static_cast<std::int32_t>(leaves);
-        const std::int32_t floor =
-            towardsZero - (leaves < static_cast<float>(towardsZero) ? 1 : 0);
-        return static_cast<std::uint64_t>(floor) & mask;
-    };
-    return static_cast<std::uint64_t>(octave + 32) << (3 * kIndexBits) |
-           index(x) << (2 * kIndexBits) | index(y) << kIndexBits | index(z);
-}
-
-Gaussian<3> sampleOf(const Leaf& leaf, const FilterParams& params) {
+Gaussian<3> sampleOf(const Leaf<Sums>& leaf, const FilterParams& params) {
     const Sums& sums = leaf.sums;
     Gaussian<3> g;
     g.support = sums.count;
@@ -145,43 +53,14 @@ void FilterParams::validate() const {
 }
 
 Mixture<3> filterScan(const Scan& scan, const FilterParams& params, FilterCounts* counts) {
-    // An edge of c sqrt(r) has the octave of its fourth power c^4 r^2, divided by four.
-    const auto fourthPower = [](double v) { return static_cast<float>(v * v * v * v); };
-    const float leafAtOneMetre4 = fourthPower(params.leafAtOneMetre_m);
-    const float minLeaf4 = fourthPower(params.minLeaf_m);
-    const auto minRange2 = static_cast<float>(params.minRange_m * params.minRange_m);
-    const auto maxRange2 = static_cast<float>(params.maxRange_m * params.maxRange_m);
     FilterCounts counted;
-    LeafTable table(scan.size());
-    // Neighbouring points mostly share a leaf: its sums stay in registers meanwhile.
-    std::uint64_t current = ~std::uint64_t{0};
-    std::uint32_t leaf = 0;
-    std::array<double, 3> anchor{};
-    Sums sums;
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-        const float x = scan.x[i], y = scan.y[i], z = scan.z[i];
-        const float range2 = x * x + y * y + z * z;
-        if (!(range2 >= minRange2 && range2 <= maxRange2) || range2 == 0.F) {
-            const bool finite = std::isfinite(x) && std::isfinite(y) && std::isfinite(z);
-            ++(finite ? counted.outOfRange : counted.notFinite);
-            continue;
-        }
-        const int octave = octaveOf(std::max(minLeaf4, leafAtOneMetre4 * range2)) >> 2;
-        const std::uint64_t key = leafKey(octave, x, y, z);
-        if (key != current) {
-            if (counted.used > 0) table[leaf].sums = sums;
-            current = key;
-            leaf = table.find(key, x, y, z);
-            anchor = {table[leaf].anchor[0], table[leaf].anchor[1], table[leaf].anchor[2]};
-            sums = table[leaf].sums;
-        }
-        sums.add(x - anchor[0], y - anchor[1], z - anchor[2]);
-        ++counted.used;
-    }
-    if (counted.used > 0) table[leaf].sums = sums;
+    const auto table = sumLeaves<Sums>(scan, params, counted,
+                                       [](Sums& sums, std::size_t, double dx, double dy,
+                                          double dz) { sums.add(dx, dy, dz); });
     Mixture<3> samples;
     samples.reserve(table.leaves().size());
-    for (const Leaf& filled : table.leaves()) samples.pushBack(sampleOf(filled, params));
+    for (const Leaf<Sums>& filled : table.leaves())
+        samples.pushBack(sampleOf(filled, params));
     if (counts != nullptr) *counts = counted;
     return samples;
 }

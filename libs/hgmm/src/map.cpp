@@ -38,6 +38,16 @@ void MapParams::validate() const {
     hierarchy.validate();
     occupancy.validate();
     contradiction.validate();
+    modality.validate();
+    if (modalities.size() > kMaxModalities)
+        throw std::invalid_argument("modalities: " + std::to_string(modalities.size()) +
+                                    " names, at most " + std::to_string(kMaxModalities));
+    for (auto name = modalities.begin(); name != modalities.end(); ++name) {
+        if (name->empty() || name->size() > 255)
+            throw std::invalid_argument("modalities: names must have 1 to 255 characters");
+        if (std::find(modalities.begin(), name, *name) != name)
+            throw std::invalid_argument("modalities: '" + *name + "' is named twice");
+    }
 }
 
 Map::Map(const MapParams& params) : derived_(std::make_unique<Derived>()) {
@@ -64,6 +74,7 @@ void Map::setParams(const MapParams& params) {
             "freeSpaceModel: a map that holds components keeps the model it was built "
             "with");
     params_ = params;
+    model_.modalities.configure(params_);
     derived_ = std::make_unique<Derived>();
 }
 
@@ -96,6 +107,7 @@ InsertReport Map::insert(const Scan& scan) {
                                      params_.occupancy.band, params_.occupancy.freeSpace))
             derived_->updateFree(*this, i);
     contradict(samples, T_local_sensor.t, report);
+    model_.modalities.insert(scan, T_local_sensor, params_);
     derived_->finish(*this);
     return report;
 }
@@ -193,12 +205,13 @@ std::size_t Map::liveBytes() const {
     const std::size_t perSurface = sizeof(float) * (1 + 3 + Mixture<3>::packed + 4);
     return sizeof(Map) + sizeof(Derived) + model_.surfaces.support.capacity() * perSurface +
            model_.freeOfSurfaces.size() * sizeof(float) * (1 + 4 + Mixture<4>::packed) +
-           model_.freeSpace.liveBytes() + derived_->liveBytes();
+           model_.freeSpace.liveBytes() + model_.modalities.liveBytes() +
+           derived_->liveBytes();
 }
 
 bool Map::Model::operator==(const Model& o) const {
     return surfaces == o.surfaces && views == o.views && freeSpace == o.freeSpace &&
-           freeOfSurfaces == o.freeOfSurfaces;
+           freeOfSurfaces == o.freeOfSurfaces && modalities == o.modalities;
 }
 
 bool Map::operator==(const Map& o) const {
@@ -208,6 +221,7 @@ bool Map::operator==(const Map& o) const {
     std::size_t k = 0;
     forEachField(o.params_,
                  [&](const char*, const auto& v) { sameParams &= mine[k++] == double(v); });
+    sameParams &= params_.modalities == o.params_.modalities;
     return sameParams && origin_ == o.origin_ && model_ == o.model_;
 }
 

@@ -75,6 +75,7 @@ void Map::merge(const Map& other, const Pose& T_this_other) {
         derived_->updateFree(
             *this, model_.freeSpace.merge(moved(from.freeSpace.mixture()[i], T_local_other),
                                           from.freeSpace.octave(i)));
+    model_.modalities.merge(other.model_.modalities, T_local_other, params_);
     derived_->finish(*this);
 }
 

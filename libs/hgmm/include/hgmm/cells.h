@@ -1,5 +1,9 @@
 #pragma once
+#include <array>
+#include <vector>
+
 #include "hgmm/em.h"
+#include "hgmm/lattice.h"
 #include "hgmm/mixture.h"
 
 namespace hgmm {
@@ -15,6 +19,13 @@ struct CellParams {
     /// Throws std::invalid_argument naming the field.
     void validate() const;
 };
+
+/// The cell of each sample: as small as the sample's own range says, but with `minSamples`
+/// in it where two doublings can reach them.
+/// @param means of the samples, in the frame of the origin
+std::vector<LatticeCell> assignCells(const std::array<std::vector<float>, 3>& means,
+                                     const Eigen::Vector3d& sensorOrigin,
+                                     const CellParams& params);
 
 /// An overestimate of the fidelity threshold, ready for fitSparse.
 struct InitialMixture {

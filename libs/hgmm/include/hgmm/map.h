@@ -5,12 +5,15 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
+#include "hgmm/cross_modal.h"
 #include "hgmm/filter.h"
 #include "hgmm/free_space.h"
 #include "hgmm/map_params.h"
 #include "hgmm/mixture.h"
+#include "hgmm/modalities.h"
 #include "hgmm/occupancy.h"
 #include "hgmm/scan.h"
 #include "hgmm/views.h"
@@ -120,6 +123,33 @@ class Map {
                                   const RayCastParams& params = {},
                                   std::size_t level = 0) const;
 
+    /// @name Modalities (thesis chapter 5)
+    /// @{
+
+    /// Names of the channels that this map models: params().modalities.
+    const std::vector<std::string>& modalities() const { return params_.modalities; }
+    /// The model of a modality; null if no scan had it yet or the map does not model it.
+    /// Valid until the next non-const call.
+    const ModalityMap* modality(const std::string& name) const {
+        return model_.modalities.find(name);
+    }
+    /// The modality at a point: thesis eq. (5.6) and (5.7). Throws std::invalid_argument
+    /// for a name that the map does not model. A point that is not finite is not known.
+    ModalityEstimate modality(const std::string& name,
+                              const Eigen::Vector3d& point_map) const;
+    /// The same for n points, on all threads: answers are those of single queries, bit for
+    /// bit.
+    void modality(const std::string& name, const Eigen::Vector3d* points_map, std::size_t n,
+                  ModalityEstimate* answers) const;
+    /// Infers a modality from the values of others (thesis 5.2, ModalityInference), at a
+    /// place if it is given. Priors that were never measured do not count. Throws
+    /// std::invalid_argument for names that the map does not model, no priors at all, or a
+    /// value or point that is not finite.
+    CrossModalEstimate infer(
+        const std::string& target, const std::vector<ModalityValue>& priors,
+        const std::optional<Eigen::Vector3d>& point_map = std::nullopt) const;
+    /// @}
+
     /// Versioned, little-endian, self-describing; parameters included. Derived data (index,
     /// upper levels) is left out and rebuilt when first needed. A map loaded from a compact
     /// buffer saves to the same buffer again.
@@ -147,6 +177,7 @@ class Map {
         Views views;                ///< of the base
         FreeSpace freeSpace;        ///< empty with FreeSpaceModel::perComponent
         Mixture<4> freeOfSurfaces;  ///< one per surface with FreeSpaceModel::perComponent
+        Modalities modalities;
 
         bool operator==(const Model& o) const;
     };

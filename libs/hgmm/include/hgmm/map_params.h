@@ -1,9 +1,13 @@
 #pragma once
+#include <string>
+#include <vector>
+
 #include "hgmm/cells.h"
 #include "hgmm/contradiction.h"
 #include "hgmm/em.h"
 #include "hgmm/filter.h"
 #include "hgmm/hierarchy.h"
+#include "hgmm/modality_params.h"
 #include "hgmm/novelty.h"
 #include "hgmm/occupancy_model.h"
 
@@ -18,6 +22,10 @@ struct MapParams {
     HierarchyParams hierarchy;
     OccupancyParams occupancy;
     ContradictionParams contradiction;
+    ModalityParams modality;
+    /// Names of the channels to model (Scan::channels), at most kMaxModalities; scans may
+    /// lack them.
+    std::vector<std::string> modalities;
 
     /// Throws std::invalid_argument naming the field.
     void validate() const;
@@ -56,6 +64,9 @@ void forEachField(Params& params, Visitor&& visit) {
     visit("extentSigmas", params.occupancy.extentSigmas);
     visit("contradictedKeep", params.contradiction.contradictedKeep);
     visit("minSupport", params.contradiction.minSupport);
+    visit("modalityLeafAtOneMetre_m", params.modality.modalityLeafAtOneMetre_m);
+    visit("modalityUnexplained", params.modality.modalityUnexplained);
+    visit("modalityNoise", params.modality.modalityNoise);
 }
 
 }  // namespace hgmm

@@ -1,0 +1,51 @@
+#include "hgmm/modality_map.h"
+
+#include <stdexcept>
+
+#include "hgmm/modality_group.h"
+#include "hgmm/modality_params.h"
+#include "hgmm/require.h"
+#include "modality_codec.h"
+
+namespace hgmm {
+
+void ModalityParams::validate() const {
+    requireInRange("modalityLeafAtOneMetre_m", modalityLeafAtOneMetre_m, 5e-3, 10.0);
+    requireInRange("modalityUnexplained", modalityUnexplained, 1e-3, 0.999);
+    requireInRange("modalityNoise", modalityNoise, 1e-6, 1e6);
+}
+
+ModalityMap::ModalityMap(const ModalityGroup& group, int channel,
+                         const HierarchyParams& hierarchy)
+    : group_(&group), channel_(channel), hierarchy_(hierarchy) {}
+
+const std::string& ModalityMap::name() const {
+    return group_->names()[static_cast<std::size_t>(channel_)];
+}
+
+std::size_t ModalityMap::size() const {
+    return group_->mixture().size();
+}
+
+const Mixture<4>& ModalityMap::mixture(std::size_t level) const {
+    if (level >= static_cast<std::size_t>(hierarchy_.levels))
+        throw std::out_of_range("ModalityMap: no level " + std::to_string(level) +
+                                ", only 0 to " + std::to_string(hierarchy_.levels - 1));
+    return group_->level(channel_, level, hierarchy_);
+}
+
+ModalityEstimate ModalityMap::at(const Eigen::Vector3d& point) const {
+    return group_->at(channel_, point);
+}
+
+double ModalityMap::logLikelihood(double value, const Eigen::Vector3d& point) const {
+    return group_->logLikelihood(channel_, value, point);
+}
+
+std::size_t ModalityMap::savedBytes() const {
+    std::vector<std::uint8_t> bytes;
+    encodeModalities(*group_, bytes);
+    return bytes.size() / group_->names().size();
+}
+
+}  // namespace hgmm

@@ -1,0 +1,161 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hgmm/gaussian.h"
+#include "hgmm/hierarchy.h"
+#include "hgmm/modality_group.h"
+#include "modality_cache.h"
+
+namespace hgmm {
+
+namespace {
+
+/// Components farther than this from a point say nothing of it [sigma].
+constexpr float kSigmas = 4.F;
+
+double logNormal(double value, double mean, double variance) {
+    const double d = value - mean;
+    return -0.5 * (kLogTwoPi + std::log(variance) + d * d / variance);
+}
+
+}  // namespace
+
+struct ModalityGroup::Term {
+    double weight;    ///< pi_k phi(x; mu_kX, Sigma_kXX), unnormalised
+    double mean;      ///< m_k(x), thesis eq. (5.4)
+    double variance;  ///< sigma_k^2, thesis eq. (5.5)
+};
+
+ModalityGroup::ModalityGroup(std::vector<std::string> names, ChannelMixture mixture)
+    : names_(std::move(names)),
+      mixture_(std::move(mixture)),
+      cache_(std::make_unique<Cache>()) {}
+ModalityGroup::ModalityGroup(const ModalityGroup& o)
+    : ModalityGroup(o.names_, o.mixture_) {}
+ModalityGroup::ModalityGroup(ModalityGroup&& o) noexcept = default;
+ModalityGroup& ModalityGroup::operator=(const ModalityGroup& o) {
+    if (this != &o) *this = ModalityGroup(o);
+    return *this;
+}
+ModalityGroup& ModalityGroup::operator=(ModalityGroup&& o) noexcept = default;
+ModalityGroup::~ModalityGroup() = default;
+
+ModalityGroup ModalityGroup::withNames(const std::vector<std::string>& names) const {
+    std::vector<int> channels;
+    for (const std::string& name : names)
+        channels.push_back(static_cast<int>(std::find(names_.begin(), names_.end(), name) -
+                                            names_.begin()));
+    return ModalityGroup(names, mixture_.withChannels(channels));
+}
+
+const ComponentIndex& ModalityGroup::index() const {
+    return cache_->index.get([this] {
+        auto made = std::make_unique<ComponentIndex>(kSigmas);
+        made->rebuild(mixture_.places());
+        return made;
+    });
+}
+
+const ValueIndex& ModalityGroup::byValue(int channel) const {
+    return cache_->byValue[static_cast<std::size_t>(channel)].get(
+        [&] { return std::make_unique<ValueIndex>(mixture_, channel); });
+}
+
+const Mixture<4>& ModalityGroup::level(int channel, std::size_t level,
+                                       const HierarchyParams& params) const {
+    const auto c = static_cast<std::size_t>(channel);
+    const Mixture<4>& base = cache_->base[c].get(
+        [&] { return std::make_unique<Mixture<4>>(mixture_.joint(channel)); });
+    if (level == 0) return base;
+    return cache_->upper[c].get([&] {
+        auto levels = std::make_unique<std::vector<Mixture<4>>>();
+        const Mixture<4>* below = &base;
+        for (int l = 1; l < params.levels; ++l) {
+            const auto size = static_cast<std::size_t>(
+                std::ceil(params.levelRatio * static_cast<double>(below->size())));
+            levels->reserve(static_cast<std::size_t>(params.levels));
+            levels->push_back(mergeToSize(*below, size, params));
+            below = &levels->back();
+        }
+        return levels;
+    })[level - 1];
+}
+
+template <typename Visitor>
+void ModalityGroup::visitTerms(int channel, const Eigen::Vector3d& point,
+                               Visitor&& visit) const {
+    const ComponentIndex& components = index();
+    const Eigen::Vector3f p = point.cast<float>();
+    const Mixture<3>& places = mixture_.places();
+    components.visitCandidates(p.x(), p.y(), p.z(), [&](std::uint32_t j) {
+        const ComponentIndex::Factor& factor = components.factor(j);
+        const float squared = factor.squaredMahalanobis(p.data());
+        if (!(squared <= kSigmas * kSigmas)) return;
+        double mean = mixture_.mean(channel, j);
+        for (int d = 0; d < 3; ++d)
+            mean += double(mixture_.slope(channel, d, j)) * (point[d] - places.mean[d][j]);
+        const double logDensity = double(factor.logNormalizer()) - 0.5 * double(squared);
+        visit(Term{double(places.support[j]) * std::exp(logDensity), mean,
+                   mixture_.residual(channel, j)});
+    });
+}
+
+ModalityEstimate ModalityGroup::at(int channel, const Eigen::Vector3d& point) const {
+    // Running mean and sum of squares about it, so that no digits cancel.
+    double weight = 0, mean = 0, squares = 0;
+    visitTerms(channel, point, [&](const Term& t) {
+        if (!(t.weight > 0)) return;
+        weight += t.weight;
+        const double before = t.mean - mean;
+        mean += t.weight / weight * before;
+        squares += t.weight * (t.variance + before * (t.mean - mean));
+    });
+    if (weight > 0) return {mean, squares / weight, true};
+    const Overall& all = overall(channel);
+    return {all.mean, all.variance, false};
+}
+
+double ModalityGroup::logLikelihood(int channel, double value,
+                                    const Eigen::Vector3d& point) const {
+    double weight = 0, log = -std::numeric_limits<double>::infinity();
+    visitTerms(channel, point, [&](const Term& t) {
+        if (!(t.weight > 0)) return;
+        weight += t.weight;
+        log = logAddExp(log, std::log(t.weight) + logNormal(value, t.mean, t.variance));
+    });
+    return weight > 0 ? log - std::log(weight) : log;
+}
+
+const ModalityGroup::Overall& ModalityGroup::overall(int channel) const {
+    return cache_->overall[static_cast<std::size_t>(channel)].get([&] {
+        auto made = std::make_unique<Overall>();
+        double weight = 0, squares = 0;
+        for (std::size_t i = 0; i < mixture_.size(); ++i) {
+            const Gaussian<4> g = mixture_[i].joint(channel);
+            weight += g.support;
+            const double before = g.mean[3] - made->mean;
+            made->mean += g.support / weight * before;
+            squares += g.support * (g.covariance(3, 3) + before * (g.mean[3] - made->mean));
+        }
+        if (weight > 0) made->variance = squares / weight;
+        return made;
+    });
+}
+
+std::size_t ModalityGroup::liveBytes() const {
+    std::size_t bytes = sizeof(*this) + sizeof(Cache) + mixture_.liveBytes();
+    for (const std::string& name : names_) bytes += sizeof(name) + name.capacity();
+    if (const ComponentIndex* made = cache_->index.value()) bytes += made->liveBytes();
+    for (const auto& lazy : cache_->byValue)
+        if (const ValueIndex* made = lazy.value()) bytes += made->liveBytes();
+    constexpr std::size_t perComponent = sizeof(float) * (1 + 4 + Mixture<4>::packed);
+    for (const auto& lazy : cache_->base)
+        if (const Mixture<4>* made = lazy.value()) bytes += made->size() * perComponent;
+    for (const auto& lazy : cache_->upper)
+        if (const auto* made = lazy.value())
+            for (const Mixture<4>& level : *made) bytes += level.size() * perComponent;
+    return bytes;
+}
+
+}  // namespace hgmm
