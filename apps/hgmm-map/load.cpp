@@ -30,13 +30,13 @@ std::vector<std::string> modalitiesOf(const hgmm::Map& map,
         const auto shown = hgmm::mrpt_bridge::shownModalities(map, one);
         names.insert(names.end(), shown.begin(), shown.end());
         if (!shown.empty()) continue;
+        if (map.modalities().empty())
+            throw std::runtime_error(
+                file + ": has no modalities; build it with insertOpts modalities = rgb");
         std::string known;
         for (const std::string& name : map.modalities())
             known += (known.empty() ? "" : ", ") + name;
-        throw std::runtime_error(
-            file + ": has no modality '" + one + "'; " +
-            (known.empty() ? "it has none: build it with insertOpts modalities = rgb"
-                           : "it has " + known));
+        throw std::runtime_error(file + ": has no modality '" + one + "'; it has " + known);
     }
     return names;
 }

@@ -15,8 +15,8 @@ mrpt::maps::CHGMMOccupancyMap loadMap(const std::string& file);
 const hgmm::Mixture<3>& levelOf(const hgmm::Map& map, std::size_t level,
                                 const std::string& file);
 
-/// The modalities that `wanted` names; "rgb" stands for r, g and b. Throws
-/// std::runtime_error saying which the map has, if it does not have them all.
+/// The modalities that `wanted` names, as hgmm::mrpt_bridge::shownModalities understands
+/// each. Throws std::runtime_error saying which the map has, if it does not have them all.
 std::vector<std::string> modalitiesOf(const hgmm::Map& map,
                                       const std::vector<std::string>& wanted,
                                       const std::string& file);

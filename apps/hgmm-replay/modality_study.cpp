@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <numeric>
@@ -27,7 +26,6 @@ using Clock = std::chrono::steady_clock;
 using Names = std::vector<std::string>;
 
 constexpr std::size_t kSingleScans = 10;
-constexpr std::size_t kInferences = 5000;  // of each kind, at most
 constexpr std::size_t kTestPointsOfRun = 600000;
 
 bool hasChannel(const hgmm::Scan& scan, const std::string& name) {
@@ -47,87 +45,6 @@ std::vector<std::size_t> allOf(const hgmm::Scan& scan) {
     std::vector<std::size_t> indices(scan.size());
     std::iota(indices.begin(), indices.end(), std::size_t{0});
     return indices;
-}
-
-std::vector<std::vector<hgmm::ModalityEstimate>> estimatesAt(const hgmm::Map& map,
-                                                             const ModalityPoints& points) {
-    std::vector<std::vector<hgmm::ModalityEstimate>> estimates;
-    for (const std::string& name : points.names) {
-        estimates.emplace_back(points.size());
-        map.modality(name, points.points_map.data(), points.size(),
-                     estimates.back().data());
-    }
-    return estimates;
-}
-
-/// As users will have it: loaded from the bytes that are counted.
-hgmm::Map savedAndLoaded(const hgmm::Map& map) {
-    const std::vector<std::uint8_t> bytes = map.save();
-    return hgmm::Map::load(bytes.data(), bytes.size());
-}
-
-ModalityMapResult evaluateModalities(const hgmm::Map& map, const ModalityPoints& test) {
-    ModalityMapResult result;
-    result.mapBytes = map.save().size();
-    const auto estimates = estimatesAt(map, test);
-    for (std::size_t i = 0; i < test.names.size(); ++i) {
-        ModalityResult of;
-        of.name = test.names[i];
-        of.score = scoreOf(estimates[i], test.values[i]);
-        if (const hgmm::ModalityMap* modality = map.modality(of.name)) {
-            of.components = modality->size();
-            of.bytes = modality->savedBytes();
-        }
-        result.modalityBytes += of.bytes;
-        result.modalities.push_back(of);
-    }
-    return result;
-}
-
-/// The values of all modalities but one at a point.
-std::vector<hgmm::ModalityValue> othersAt(const ModalityPoints& points, std::size_t target,
-                                          std::size_t i) {
-    std::vector<hgmm::ModalityValue> values;
-    for (std::size_t c = 0; c < points.names.size(); ++c)
-        if (c != target) values.push_back({points.names[c], points.values[c][i]});
-    return values;
-}
-
-CrossModalResult inferAt(const hgmm::Map& map, const ModalityPoints& test,
-                         std::size_t target) {
-    const std::size_t n = std::min(kInferences, test.size());
-    const std::string& name = test.names[target];
-    std::vector<hgmm::ModalityEstimate> inferred(n), regressed(n);
-    std::vector<double> measured(n);
-    map.infer(name, othersAt(test, target, 0), test.points_map[0]);  // builds the index
-    const Clock::time_point start = Clock::now();
-    for (std::size_t i = 0; i < n; ++i) {
-        const hgmm::CrossModalEstimate answer =
-            map.infer(name, othersAt(test, target, i), test.points_map[i]);
-        inferred[i] = {answer.mean, answer.variance, answer.known};
-    }
-    const std::chrono::duration<double, std::micro> taken = Clock::now() - start;
-    map.modality(name, test.points_map.data(), n, regressed.data());
-    std::copy_n(test.values[target].begin(), n, measured.begin());
-    return {name, scoreOf(inferred, measured).r2, scoreOf(regressed, measured).r2,
-            taken.count() / static_cast<double>(n)};
-}
-
-/// Each point equally likely to be among the first.
-ModalityPoints shuffled(const ModalityPoints& points, std::uint64_t seed) {
-    std::mt19937_64 stream = randomStream(seed, 0, Draw::modalityQueries);
-    std::vector<std::size_t> order(points.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    for (std::size_t i = order.size(); i > 1; --i)
-        std::swap(order[i - 1],
-                  order[static_cast<std::size_t>(nextUniform(stream) * double(i))]);
-    ModalityPoints result{points.names, {}, {}};
-    for (const std::size_t i : order) result.points_map.push_back(points.points_map[i]);
-    for (const std::vector<double>& values : points.values) {
-        result.values.emplace_back();
-        for (const std::size_t i : order) result.values.back().push_back(values[i]);
-    }
-    return result;
 }
 
 /// The maps, and what is learnt about them scan by scan.

@@ -48,10 +48,10 @@ std::vector<mrpt::img::TColorf> baseColours(const Map& map, const RenderParams& 
         occupied.push_back(i);
         places_map.push_back(grid.voxels[i].place_map);
     }
-    const auto measured = modalityColours(map, params.modality, places_map);
+    const auto shown = modalityColours(map, params.modality, places_map);
     for (std::size_t k = 0; k < occupied.size(); ++k)
-        colours[occupied[k]] = {measured[k].R * general.R, measured[k].G * general.G,
-                                measured[k].B * general.B, general.A};
+        colours[occupied[k]] = {shown[k].R * general.R, shown[k].G * general.G,
+                                shown[k].B * general.B, general.A};
     return colours;
 }
 
