@@ -107,7 +107,8 @@ TEST(Modalities, NamesAreSeparatedByCommasAndRgbIsShortForThree) {
           std::pair{"modalities =   intensity ,  rgb\t; a comment",
                     Names{"intensity", "r", "g", "b"}},
           std::pair{"modalities = water content", Names{"water content"}},
-          std::pair{"modalities = ", Names{}}, std::pair{"levels = 3", Names{"b"}}}) {
+          std::pair{"modalities = ", Names{}}, std::pair{"modalities =   // none", Names{}},
+          std::pair{"levels = 3", Names{"b"}}}) {
         CHGMMOccupancyMap::TInsertionOptions options;
         options.params.modalities = {"b"};
         options.loadFromConfigFile(CConfigFileMemory(std::string("[s]\n") + line + "\n"),
