@@ -10,7 +10,8 @@
 
 namespace maptool {
 
-/// `hgmm-map info`: prints levels, size, extent, origin and options of a saved map.
+/// `hgmm-map info`: prints levels, size, extent, origin, modalities and options of a saved
+/// map.
 void info(const std::string& mapFile);
 
 struct SampleOptions {
@@ -18,6 +19,7 @@ struct SampleOptions {
     std::size_t points = 0;
     std::uint64_t seed = 1;
     std::size_t level = 0;
+    bool colour = false;  ///< as the map's modalities look like
 };
 
 /// `hgmm-map sample`: draws points from a level into a PLY file.
@@ -25,13 +27,14 @@ void sample(const SampleOptions& options);
 
 struct QueryOptions {
     std::string mapFile;
-    std::vector<std::string> points;  ///< each "x,y,z" [m]
-    std::string pointsFile;           ///< lines of "x y z" [m], if not empty
+    std::vector<std::string> points;      ///< each "x,y,z" [m]
+    std::string pointsFile;               ///< lines of "x y z" [m], if not empty
+    std::vector<std::string> modalities;  ///< names to be answered too; "rgb" is all three
     std::size_t level = 0;
 };
 
-/// `hgmm-map query`: prints, for each point, whether it is occupied, free or unknown, and
-/// how far from the surface.
+/// `hgmm-map query`: prints, for each point, whether it is occupied, free or unknown, how
+/// far from the surface, and the modalities asked for.
 void query(const QueryOptions& options);
 
 struct RayOptions {

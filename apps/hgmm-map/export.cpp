@@ -1,9 +1,7 @@
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CSetOfObjects.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <stdexcept>
 
 #include "commands.h"
@@ -17,6 +15,7 @@ namespace maptool {
 namespace {
 
 constexpr double kSigmas = 2.0;
+constexpr int kAllEllipsoids = 10000000;  // the most that renderOptions take
 
 /// Points of every component, the same number of each.
 void appendComponentPoints(const hgmm::Gaussian<3>& component_local,
@@ -45,12 +44,14 @@ void exportPly(const hgmm::Map& map, const ExportOptions& options) {
 }
 
 void exportScene(mrpt::maps::CHGMMOccupancyMap map, const ExportOptions& options) {
-    const hgmm::Mixture<3>& mixture = levelOf(map.model(), options.level, options.mapFile);
+    levelOf(map.model(), options.level, options.mapFile);
+    if (options.render.colour ==
+        static_cast<int>(hgmm::mrpt_bridge::EllipsoidColour::kModality))
+        modalitiesOf(map.model(), {options.render.modality}, options.mapFile);
     static_cast<hgmm::mrpt_bridge::RenderParams&>(map.renderOptions) = options.render;
     map.renderOptions.level = static_cast<int>(options.level);
     map.renderOptions.voxelResolution_m = options.resolution_m;
-    map.renderOptions.maxEllipsoids = static_cast<int>(
-        std::min<std::size_t>(mixture.size(), std::numeric_limits<int>::max()));
+    map.renderOptions.maxEllipsoids = kAllEllipsoids;
     map.genericMapParams.enableSaveAs3DObject = true;
     auto objects = mrpt::opengl::CSetOfObjects::Create();
     map.getVisualizationInto(*objects);

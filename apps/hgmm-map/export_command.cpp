@@ -20,7 +20,7 @@ using Restricted = std::pair<CLI::Option*, Formats>;
 std::vector<Restricted> defineSceneOptions(CLI::App& exports,
                                            hgmm::mrpt_bridge::RenderParams& render) {
     const std::map<std::string, int> colours = {
-        {"height", 0}, {"weight", 1}, {"occupancy", 2}, {"deviation", 3}};
+        {"height", 0}, {"weight", 1}, {"occupancy", 2}, {"deviation", 3}, {"modality", 4}};
     CLI::Option* voxels = exports.add_flag(
         "--voxels", render.drawVoxels, "3Dscene: occupied voxels instead of ellipsoids");
     CLI::Option* freeVoxels = exports.add_flag("--free-voxels", "3Dscene: and free voxels");
@@ -31,11 +31,16 @@ std::vector<Restricted> defineSceneOptions(CLI::App& exports,
                               .add_option("--colour", render.colour,
                                           "3Dscene: what ellipsoids show by colour")
                               ->transform(CLI::Transformer(colours))
-                              ->check(CLI::Range(0, 3));
+                              ->check(CLI::Range(0, 4));
+    CLI::Option* modality = exports.add_option(
+        "--modality", render.modality,
+        "3Dscene: shown with --colour modality; default: rgb, or the first");
+    modality->needs(colour);
     return {{voxels, {"3Dscene"}},
             {freeVoxels, {"3Dscene"}},
             {freeSpace, {"3Dscene"}},
-            {colour, {"3Dscene"}}};
+            {colour, {"3Dscene"}},
+            {modality, {"3Dscene"}}};
 }
 
 std::vector<Restricted> defineOptions(CLI::App& exports, ExportOptions& exporting) {

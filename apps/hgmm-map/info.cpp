@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <string>
 
 #include "commands.h"
 #include "hgmm/evaluation/memory.h"
@@ -29,6 +30,16 @@ void printExtent(const hgmm::Map& map) {
     }
 }
 
+void printModalities(const hgmm::Map& map) {
+    if (map.modalities().empty()) return;
+    std::printf("modality           components       bytes\n");
+    for (const std::string& name : map.modalities()) {
+        const hgmm::ModalityMap* modality = map.modality(name);
+        std::printf("%-16s  %11zu  %10zu\n", name.c_str(), modality ? modality->size() : 0,
+                    modality ? modality->savedBytes() : 0);
+    }
+}
+
 }  // namespace
 
 void info(const std::string& mapFile) {
@@ -51,6 +62,7 @@ void info(const std::string& mapFile) {
             std::printf("%5zu  %10zu  %10zu  %10zu\n", level, map.mixture(level).size(),
                         map.freeMixture(level).size(),
                         hgmm::evaluation::levelBytes(map, level));
+        printModalities(map);
     }
     std::printf("options\n");
     hgmm::forEachField(map.params(), [](const char* name, auto value) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace maptool {
 
@@ -13,5 +14,11 @@ mrpt::maps::CHGMMOccupancyMap loadMap(const std::string& file);
 /// the map has, or that it is empty.
 const hgmm::Mixture<3>& levelOf(const hgmm::Map& map, std::size_t level,
                                 const std::string& file);
+
+/// The modalities that `wanted` names, as hgmm::mrpt_bridge::shownModalities understands
+/// each. Throws std::runtime_error saying which the map has, if it does not have them all.
+std::vector<std::string> modalitiesOf(const hgmm::Map& map,
+                                      const std::vector<std::string>& wanted,
+                                      const std::string& file);
 
 }  // namespace maptool

@@ -23,6 +23,9 @@ CLI::App* defineSample(CLI::App& app, maptool::SampleOptions& sampling) {
         ->check(CLI::NonNegativeNumber);
     sample->add_option("--seed", sampling.seed, "Seed of the random numbers")
         ->check(CLI::NonNegativeNumber);
+    sample->add_flag("--color,--colour", sampling.colour,
+                     "Colour the points: by r, g, b if the map has them, else by its first "
+                     "modality");
     sample->add_option("-o", sampling.output, "Output file")->required();
     return sample;
 }
@@ -35,6 +38,11 @@ CLI::App* defineQuery(CLI::App& app, maptool::QueryOptions& querying) {
         query->add_option("POINT", querying.points, "Points x,y,z [m], in the map frame");
     CLI::Option* file = query->add_option("--points", querying.pointsFile,
                                           "File with a line x y z [m] for each point");
+    query
+        ->add_option("--modality", querying.modalities,
+                     "Print this modality and its variance too; several: r,intensity")
+        ->delimiter(',')
+        ->allow_extra_args(false);
     query->callback([points, file] {
         if (points->count() + file->count() == 0)
             throw CLI::ValidationError("query", "needs points x,y,z or --points FILE");
@@ -81,7 +89,8 @@ int main(int argc, char** argv) {
     app.footer("Exit codes: 0 done, 1 bad input, 2 wrong usage.");
 
     std::string infoFile;
-    CLI::App* info = app.add_subcommand("info", "Levels, size, extent, origin and options");
+    CLI::App* info =
+        app.add_subcommand("info", "Levels, size, extent, origin, modalities and options");
     info->add_option("MAP", infoFile, "Saved map")->required();
     maptool::SampleOptions sampling;
     const CLI::App* sample = defineSample(app, sampling);

@@ -1,9 +1,32 @@
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
 #include "commands.h"
 #include "hgmm/evaluation/reconstruction.h"
+#include "hgmm/mrpt_bridge/modality_colours.h"
 #include "load.h"
 #include "ply.h"
 
 namespace maptool {
+namespace {
+
+std::vector<Colour> coloursOf(const hgmm::Map& map,
+                              const hgmm::evaluation::Points& points_map,
+                              const std::string& file) {
+    modalitiesOf(map, {""}, file);  // says what to do if there are none
+    std::vector<Colour> colours;
+    colours.reserve(points_map.size());
+    const auto byte = [](float share) {
+        return static_cast<std::uint8_t>(std::lround(255.F * share));
+    };
+    for (const auto& c : hgmm::mrpt_bridge::modalityColours(map, "", points_map))
+        colours.push_back({byte(c.R), byte(c.G), byte(c.B)});
+    return colours;
+}
+
+}  // namespace
 
 void sample(const SampleOptions& options) {
     const mrpt::maps::CHGMMOccupancyMap map = loadMap(options.mapFile);
@@ -11,6 +34,7 @@ void sample(const SampleOptions& options) {
     ply.vertices = hgmm::evaluation::sampleSurface(
         levelOf(map.model(), options.level, options.mapFile), map.model().origin(),
         options.points, options.seed);
+    if (options.colour) ply.colours = coloursOf(map.model(), ply.vertices, options.mapFile);
     writePly(options.output, ply);
 }
 

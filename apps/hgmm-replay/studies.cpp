@@ -8,6 +8,7 @@
 #include "free_space_study.h"
 #include "incremental_study.h"
 #include "map_setup.h"
+#include "modality_study.h"
 #include "regression_study.h"
 #include "room_study.h"
 #include "voxel_study.h"
@@ -73,6 +74,12 @@ std::vector<Study> makeStudies() {
          Needs::nothing,
          {},
          regressionStudy},
+        {"table5.1",
+         "colours or intensity at held-out points, by maps of one scan and of all; colours "
+         "inferred from each other",
+         Needs::posedScans,
+         once(modalityStudy),
+         {}},
         {"realtime",
          "scans per second, from observation to updated map",
          Needs::posedScans,

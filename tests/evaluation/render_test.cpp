@@ -137,6 +137,38 @@ TEST(RenderFrame, PutsPointsCubesAndEllipsoidsInTheSamePlace) {
     EXPECT_NEAR(point.y, 0.5 * points.height_px - 0.5 + scale * down, 1.0);
 }
 
+TEST(RenderFrame, PointsHaveTheirOwnColours) {
+    const View view = small(0, 0);
+    const Frame frame = frameOf(cubeCorners(10), view, 0.0);
+    const Eigen::Vector3d near(97, 203, 7), hidden(102, 203, 7), right(97, 197, 7);
+    const Picture p = renderPoints({hidden, near, right},
+                                   {{0, 0, 1}, {1, 0.5, 0}, {0, 1, 2}}, view, frame);
+    std::array<int, 3> seen{};  // pixels of the three, by their colours
+    for (std::size_t i = 0; i < p.rgb.size(); i += 3) {
+        const std::array<int, 3> rgb{p.rgb[i], p.rgb[i + 1], p.rgb[i + 2]};
+        seen[0] += rgb == std::array<int, 3>{0, 0, 255};
+        seen[1] += rgb == std::array<int, 3>{255, 127, 0};
+        seen[2] += rgb == std::array<int, 3>{0, 255, 255};
+    }
+    EXPECT_EQ(seen[0], 0) << "behind the nearer one";
+    EXPECT_GE(seen[1], 2);
+    EXPECT_EQ(seen[2], seen[1]) << "colours beyond 1 are as 1";
+    EXPECT_THROW(renderPoints({near}, {}, view, frame), std::invalid_argument);
+}
+
+TEST(RenderScale, RisesInLightnessFromEndToEnd) {
+    double before = -1;
+    for (int i = 0; i <= 20; ++i) {
+        const Rgb colour = scaleColour(i / 20.0);
+        const double lightness =
+            0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
+        EXPECT_GT(lightness, before);
+        before = lightness;
+    }
+    EXPECT_EQ(scaleColour(-3), scaleColour(0));
+    EXPECT_EQ(scaleColour(3), scaleColour(1));
+}
+
 TEST(RenderFrame, AFewStrayPointsDoNotShrinkTheRest) {
     Points points = cubeCorners(10);
     for (int i = 0; i < 100; ++i) points.insert(points.end(), points[0]);

@@ -3,16 +3,35 @@
 #include <mrpt/maps/CHGMMOccupancyMap.h>
 
 #include <map>
+#include <ostream>
 #include <string>
 
 /// Options with every value away from its default, so that a forgotten one shows.
 namespace edited {
 
 using mrpt::maps::CHGMMOccupancyMap;
-using Values = std::map<std::string, double>;
+
+/// A number or a text, to be compared and printed.
+struct Value {
+    Value() = default;
+    Value(double n) : number(n) {}
+    Value(const std::string& t) : text(t) {}
+
+    bool operator==(const Value& o) const { return number == o.number && text == o.text; }
+    bool operator!=(const Value& o) const { return !(*this == o); }
+
+    double number = 0;
+    std::string text;
+};
+inline std::ostream& operator<<(std::ostream& out, const Value& v) {
+    return v.text.empty() ? out << v.number : out << v.text;
+}
+using Values = std::map<std::string, Value>;
 
 inline Values values(const CHGMMOccupancyMap::TInsertionOptions& options) {
     Values values;
+    std::string& modalities = values["modalities"].text;
+    for (const std::string& name : options.params.modalities) modalities += name + ";";
     ::hgmm::forEachField(options.params, [&](const char* name, const auto& value) {
         values[name] = static_cast<double>(value);
     });
@@ -33,6 +52,7 @@ inline Values values(const CHGMMOccupancyMap::TRenderOptions& o) {
             {"sigmas", o.sigmas},
             {"maxEllipsoids", o.maxEllipsoids},
             {"colour", o.colour},
+            {"modality", o.modality},
             {"voxelResolution_m", o.voxelResolution_m},
             {"minOccupied", o.minOccupied},
             {"generateOccupiedVoxels", o.generateOccupiedVoxels},
@@ -49,6 +69,7 @@ inline void change(CHGMMOccupancyMap::TInsertionOptions& options) {
         else
             value *= 0.875;  // exact in binary, inside every range
     });
+    options.params.modalities = {"intensity", "water content"};
     options.params.validate();
 }
 inline void change(CHGMMOccupancyMap::TLikelihoodOptions& o) {
@@ -63,6 +84,7 @@ inline void change(CHGMMOccupancyMap::TRenderOptions& o) {
     o.level = 2;
     o.maxEllipsoids = 55;
     o.colour = 1;
+    o.modality = "water content";
     o.drawEllipsoids = false;
     o.drawFreeSpace = true;
     o.drawVoxels = true;

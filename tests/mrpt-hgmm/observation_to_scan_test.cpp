@@ -185,7 +185,8 @@ TEST(ObservationToScan, AlignedImageColoursThePoints) {
     o->relativePoseIntensityWRTDepth.x(0);
     o->cameraParamsIntensity = o->cameraParams;
     o->cameraParamsIntensity.fx(80);
-    EXPECT_TRUE(observationToScan(*o)->channels.empty()) << "the lenses differ";
+    // 19 columns right of the centre at fx = 60 are 25 at 80; around it is black.
+    EXPECT_EQ((*channel(*observationToScan(*o), "r"))[i], 0.F) << "the lenses differ";
     o->cameraParamsIntensity = o->cameraParams;
     o->intensityImage.resize(32, 24, mrpt::img::CH_RGB);
     EXPECT_TRUE(observationToScan(*o)->channels.empty()) << "the sizes differ";
@@ -235,6 +236,16 @@ TEST(ObservationToScan, CloudsBringTheirChannels) {
     ASSERT_EQ(grey->size(), 1U);
     ASSERT_TRUE(channel(*grey, "intensity"));
     EXPECT_FLOAT_EQ(channel(*grey, "intensity")->at(0), 0.7F);
+    for (const auto& [raw, scaled] :
+         {std::pair{51.F, 0.2F}, std::pair{13107.F, 0.2F}, std::pair{-1.F, 0.F}}) {
+        auto counts = mrpt::maps::CPointsMapXYZI::Create();
+        counts->insertPointRGB(1, 2, 3, raw, 0, 0);
+        o->pointcloud = counts;
+        EXPECT_FLOAT_EQ(channel(*observationToScan(*o), "intensity")->at(0), scaled) << raw;
+    }
+    xyzi->insertPointRGB(1, 2, 3, kNan, 0, 0);
+    o->pointcloud = xyzi;
+    EXPECT_TRUE(std::isnan(channel(*observationToScan(*o), "intensity")->at(1)));
 
     auto coloured = mrpt::maps::CColouredPointsMap::Create();
     coloured->insertPointRGB(1, 2, 3, 0.1F, 0.2F, 0.3F);
@@ -258,6 +269,11 @@ TEST(ObservationToScan, VelodynePacketsGiveTheCloudWithoutTouchingTheObservation
     const auto again = observationToScan(*o);
     ASSERT_EQ(again->size(), o->point_cloud.size());
     EXPECT_EQ(again->x.front(), o->point_cloud.x.front());
+    for (std::size_t i = 0; i < again->size(); i += 111)
+        EXPECT_FLOAT_EQ(channel(*again, "intensity")->at(i),
+                        o->point_cloud.intensity[i] / 255.F);
+    o->point_cloud.intensity.clear();
+    EXPECT_TRUE(observationToScan(*o)->channels.empty()) << "not measured is not dark";
 
     mrpt::obs::CObservationVelodyneScan bare = *o;
     bare.point_cloud.clear();
@@ -283,6 +299,8 @@ TEST(ObservationToScan, RotatingScanTurnsLikeTheVelodyneItCameFrom) {
             const Eigen::Vector3d p(scan->x[i], scan->y[i], scan->z[i]);
             const Eigen::Vector3d q(expected->x[i], expected->y[i], expected->z[i]);
             ASSERT_NEAR(p.norm(), q.norm(), 0.002) << i;
+            ASSERT_FLOAT_EQ(channel(*scan, "intensity")->at(i),
+                            channel(*expected, "intensity")->at(i));
             worst = std::max(worst,
                              std::acos(std::min(1.0, p.normalized().dot(q.normalized()))));
         }

@@ -81,7 +81,7 @@ TEST(OptionErrors, BadValueNamesSectionKeyAndValue) {
     EXPECT_NE(errorOf<Likelihood>("maxPoints = 0").find("maxPoints"), std::string::npos);
     EXPECT_NE(errorOf<Likelihood>("minRange_m = 90").find("maxRange_m"), std::string::npos);
     EXPECT_NE(errorOf<Render>("drawVoxels = maybe").find("drawVoxels"), std::string::npos);
-    EXPECT_NE(errorOf<Render>("colour = 4").find("colour"), std::string::npos);
+    EXPECT_NE(errorOf<Render>("colour = 5").find("colour"), std::string::npos);
     EXPECT_NE(errorOf<Render>("colour = height").find("colour"), std::string::npos);
     EXPECT_NE(errorOf<Render>("voxelResolution_m = -1").find("voxelResolution_m"),
               std::string::npos);
@@ -98,6 +98,33 @@ TEST(OptionErrors, CommentsAndSpellingsOfNumbersAreUnderstood) {
     EXPECT_EQ(options.params.filter.minLeaf_m, 0.02);
     EXPECT_EQ(options.params.hierarchy.levels, 3);
     EXPECT_EQ(options.params.filter.leafAtOneMetre_m, 0.5);
+}
+
+TEST(Modalities, NamesAreSeparatedByCommasAndRgbIsShortForThree) {
+    using Names = std::vector<std::string>;
+    for (const auto& [line, expected] :
+         {std::pair{"modalities = rgb,intensity", Names{"r", "g", "b", "intensity"}},
+          std::pair{"modalities =   intensity ,  rgb\t; a comment",
+                    Names{"intensity", "r", "g", "b"}},
+          std::pair{"modalities = water content", Names{"water content"}},
+          std::pair{"modalities = ", Names{}}, std::pair{"modalities =   // none", Names{}},
+          std::pair{"levels = 3", Names{"b"}}}) {
+        CHGMMOccupancyMap::TInsertionOptions options;
+        options.params.modalities = {"b"};
+        options.loadFromConfigFile(CConfigFileMemory(std::string("[s]\n") + line + "\n"),
+                                   "s");
+        EXPECT_EQ(options.params.modalities, expected) << line;
+    }
+}
+
+TEST(Modalities, BadNamesAreRefusedWithSectionAndKey) {
+    using Insertion = CHGMMOccupancyMap::TInsertionOptions;
+    for (const std::string value :
+         {"rgb,,intensity", ",", "intensity,", "rgb, r", "a,b,a", "1,2,3,4,5,6,7,8,9"}) {
+        const std::string said = errorOf<Insertion>("modalities = " + value);
+        EXPECT_NE(said.find("[s]"), std::string::npos) << value << ": " << said;
+        EXPECT_NE(said.find("modalities"), std::string::npos) << value << ": " << said;
+    }
 }
 
 TEST(OptionErrors, MisspeltNamesAreReportedWithTheNearest) {

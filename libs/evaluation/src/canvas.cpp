@@ -15,10 +15,14 @@ constexpr int kMaxHeight_px = 2000;
 constexpr double kMargin = 0.03;  // of the picture's width
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-using Rgb = std::array<double, 3>;
+/// Pixels may lie anywhere; only those of the picture fit an int.
+int clampedPixel(double at, int low, int high) {
+    return static_cast<int>(std::clamp(std::floor(at), double(low), double(high)));
+}
 
-/// Dark blue to yellow by rising lightness: ordered for every kind of colour vision.
-Rgb heightColour(double share) {
+}  // namespace
+
+Rgb scaleColour(double share) {
     static constexpr std::array<Rgb, 5> stops = {{{0.27, 0.00, 0.33},
                                                   {0.23, 0.32, 0.55},
                                                   {0.13, 0.57, 0.55},
@@ -33,13 +37,6 @@ Rgb heightColour(double share) {
                     (at - double(below)) * (stops[below + 1][c] - stops[below][c]);
     return colour;
 }
-
-/// Pixels may lie anywhere; only those of the picture fit an int.
-int clampedPixel(double at, int low, int high) {
-    return static_cast<int>(std::clamp(std::floor(at), double(low), double(high)));
-}
-
-}  // namespace
 
 void requireValid(const View& view) {
     requireInRange("pitch_deg", view.pitch_deg, -90.0, 90.0);
@@ -69,7 +66,7 @@ Canvas::Canvas(const Frame& frame, const View& view)
     left_ = centre.x() - 0.5 * width_ / scale_;
     top_ = centre.y() - 0.5 * height_ / scale_;
     nearest_ = view.cut > 0.0 ? frame.low.z() + view.cut * size.z() : -kInfinity;
-    pixels_.assign(index(0, height_), {kInfinity, 0.0, 0.0});
+    pixels_.assign(index(0, height_), {kInfinity, {}, 0.0});
 }
 
 Canvas::Patch Canvas::patch(const Eigen::Vector3d& centre, double halfWidth_m,
@@ -85,10 +82,19 @@ Eigen::Vector2d Canvas::offset(int x, int y, const Eigen::Vector3d& centre) cons
             top_ + (y + 0.5) / scale_ - centre.y()};
 }
 
-void Canvas::put(int x, int y, double depth_m, double height_m, double brightness) {
+Rgb Canvas::colourOf(double height_m) const {
+    // Steps that are hard to see, and few enough colours for a palette: 19 heights in 13
+    // shades, and the background.
+    constexpr double steps = 18;
+    const double span = std::max(frame_.highest_m - frame_.lowest_m, 1e-6);
+    const double share = std::clamp((height_m - frame_.lowest_m) / span, 0.0, 1.0);
+    return scaleColour(std::round(share * steps) / steps);
+}
+
+void Canvas::put(int x, int y, double depth_m, const Rgb& colour, double brightness) {
     Pixel& pixel = pixels_[index(x, y)];
     if (depth_m >= nearest_ && depth_m < pixel.depth_m)
-        pixel = {depth_m, height_m, brightness};
+        pixel = {depth_m, colour, brightness};
 }
 
 void Canvas::shadeGaps(double gap_m) {
@@ -109,26 +115,20 @@ void Canvas::shadeGaps(double gap_m) {
 }
 
 Picture Canvas::take() {
-    // Steps that are hard to see, and few enough colours for a palette: 19 heights in 13
-    // shades, and the background.
-    constexpr double heightSteps = 18, brightnessSteps = 20, darkest = 0.4;
+    constexpr double brightnessSteps = 20, darkest = 0.4;
     Picture picture;
     picture.width_px = width_;
     picture.height_px = height_;
     picture.rgb.assign(3 * pixels_.size(), 255);
-    const double span = std::max(frame_.highest_m - frame_.lowest_m, 1e-6);
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
         const Pixel& pixel = pixels_[i];
         if (pixel.depth_m == kInfinity) continue;
-        const double share =
-            std::clamp((pixel.height_m - frame_.lowest_m) / span, 0.0, 1.0);
-        const Rgb colour = heightColour(std::round(share * heightSteps) / heightSteps);
         const double brightness =
             std::round(std::clamp(pixel.brightness, darkest, 1.0) * brightnessSteps) /
             brightnessSteps;
         for (std::size_t k = 0; k < 3; ++k)
             picture.rgb[3 * i + k] = static_cast<std::uint8_t>(
-                255 * std::clamp(brightness * colour[k], 0.0, 1.0));
+                255 * std::clamp(brightness * pixel.colour[k], 0.0, 1.0));
     }
     return picture;
 }

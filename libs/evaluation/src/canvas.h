@@ -28,8 +28,11 @@ class Canvas {
     /// Right and down from the centre to the middle of a pixel [m].
     Eigen::Vector2d offset(int x, int y, const Eigen::Vector3d& centre) const;
 
+    /// The colour of a height, by the frame.
+    Rgb colourOf(double height_m) const;
+
     /// Draws a pixel unless something nearer is there or the view cuts it away.
-    void put(int x, int y, double depth_m, double height_m, double brightness);
+    void put(int x, int y, double depth_m, const Rgb& colour, double brightness);
 
     /// Darkens pixels that lie behind a neighbour: more, the larger the gap is.
     void shadeGaps(double gap_m);
@@ -41,7 +44,9 @@ class Canvas {
 
  private:
     struct Pixel {
-        double depth_m, height_m, brightness;
+        double depth_m;
+        Rgb colour;
+        double brightness;
     };
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +

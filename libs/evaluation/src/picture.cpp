@@ -37,6 +37,27 @@ std::optional<Palette> paletteOf(const Picture& picture) {
 
 }  // namespace
 
+Picture besideEachOther(const std::vector<Picture>& pictures) {
+    constexpr int gap_px = 12;
+    if (pictures.empty()) throw std::invalid_argument("there are no pictures to join");
+    Picture joined;
+    joined.width_px = -gap_px;
+    for (const Picture& p : pictures) {
+        joined.width_px += gap_px + p.width_px;
+        joined.height_px = std::max(joined.height_px, p.height_px);
+    }
+    const auto stride = 3 * static_cast<std::size_t>(joined.width_px);
+    joined.rgb.assign(stride * static_cast<std::size_t>(joined.height_px), 255);
+    std::size_t left = 0;
+    for (const Picture& p : pictures) {
+        const auto width = 3 * static_cast<std::size_t>(p.width_px);
+        for (std::size_t y = 0; y < static_cast<std::size_t>(p.height_px); ++y)
+            std::copy_n(&p.rgb[y * width], width, &joined.rgb[y * stride + left]);
+        left += width + 3 * gap_px;
+    }
+    return joined;
+}
+
 std::string pngOf(const Picture& picture) {
     if (picture.width_px <= 0 || picture.height_px <= 0 ||
         picture.rgb.size() !=

@@ -37,7 +37,7 @@ Frame frameOfEllipsoids(const std::vector<Gaussian<3>>& seen,
 
 /// The ray of a pixel, d from the mean, meets the ellipsoid d^T P d = sigmas^2 where a
 /// quadratic in depth says.
-void drawEllipsoid(const Gaussian<3>& g, double height_m, double sigmas, Canvas& canvas) {
+void drawEllipsoid(const Gaussian<3>& g, const Rgb& colour, double sigmas, Canvas& canvas) {
     const Eigen::Matrix3d P =
         Eigen::LLT<Eigen::Matrix3d>(g.covariance).solve(Eigen::Matrix3d::Identity());
     const Canvas::Patch patch = canvas.patch(g.mean, sigmas * std::sqrt(g.covariance(0, 0)),
@@ -53,7 +53,7 @@ void drawEllipsoid(const Gaussian<3>& g, double height_m, double sigmas, Canvas&
             const double dz = (-b - std::sqrt(discriminant)) / a;
             const Eigen::Vector3d normal =
                 (P * Eigen::Vector3d(d.x(), d.y(), dz)).normalized();
-            canvas.put(x, y, g.mean.z() + dz, height_m, brightnessOf(normal));
+            canvas.put(x, y, g.mean.z() + dz, colour, brightnessOf(normal));
         }
 }
 
@@ -65,6 +65,7 @@ void drawCube(const Eigen::Vector3d& centre_map, const Eigen::Matrix3d& axes, do
     const Eigen::Vector3d reach = half_m * axes.cwiseAbs().rowwise().sum();
     const Eigen::Vector3d away = axes.row(2);
     const Canvas::Patch patch = canvas.patch(centre, reach.x(), reach.y());
+    const Rgb colour = canvas.colourOf(centre_map.z());
     for (int y = patch.y0; y <= patch.y1; ++y)
         for (int x = patch.x0; x <= patch.x1; ++x) {
             const Eigen::Vector2d d = canvas.offset(x, y, centre);
@@ -86,8 +87,30 @@ void drawCube(const Eigen::Vector3d& centre_map, const Eigen::Matrix3d& axes, do
             }
             if (enter > leave) continue;
             const Eigen::Vector3d normal = axes.col(side) * (away[side] > 0 ? -1.0 : 1.0);
-            canvas.put(x, y, centre.z() + enter, centre_map.z(), brightnessOf(normal));
+            canvas.put(x, y, centre.z() + enter, colour, brightnessOf(normal));
         }
+}
+
+/// @param colourOf called with the canvas and the number of a point
+template <typename ColourOf>
+Picture drawPoints(const Points& points_map, const View& view, const Frame& frame,
+                   ColourOf&& colourOf) {
+    constexpr double radius_px = 1.2;
+    const Eigen::Matrix3d axes = viewAxes(view);
+    Canvas canvas(frame, view);
+    const double radius_m = radius_px * canvas.metresPerPixel();
+    for (std::size_t i = 0; i < points_map.size(); ++i) {
+        if (!points_map[i].allFinite()) continue;
+        const Eigen::Vector3d seen = axes * points_map[i];
+        const Canvas::Patch patch = canvas.patch(seen, radius_m, radius_m);
+        const Rgb colour = colourOf(canvas, i);
+        for (int y = patch.y0; y <= patch.y1; ++y)
+            for (int x = patch.x0; x <= patch.x1; ++x)
+                if (canvas.offset(x, y, seen).norm() <= radius_m)
+                    canvas.put(x, y, seen.z(), colour, 1.0);
+    }
+    canvas.shadeGaps(8.0 * canvas.metresPerPixel());
+    return canvas.take();
 }
 
 /// Between the values that a share of all lie below, and above.
@@ -153,27 +176,24 @@ Picture renderEllipsoids(const Mixture<3>& mixture, const View& view,
     }
     Canvas canvas(frame ? *frame : frameOfEllipsoids(seen, heights_m, view.sigmas), view);
     for (std::size_t i = 0; i < seen.size(); ++i)
-        drawEllipsoid(seen[i], heights_m[i], view.sigmas, canvas);
+        drawEllipsoid(seen[i], canvas.colourOf(heights_m[i]), view.sigmas, canvas);
     return canvas.take();
 }
 
 Picture renderPoints(const Points& points_map, const View& view, const Frame& frame) {
-    constexpr double radius_px = 1.2;
     requireValid(view);
-    const Eigen::Matrix3d axes = viewAxes(view);
-    Canvas canvas(frame, view);
-    const double radius_m = radius_px * canvas.metresPerPixel();
-    for (const Eigen::Vector3d& p : points_map) {
-        if (!p.allFinite()) continue;
-        const Eigen::Vector3d seen = axes * p;
-        const Canvas::Patch patch = canvas.patch(seen, radius_m, radius_m);
-        for (int y = patch.y0; y <= patch.y1; ++y)
-            for (int x = patch.x0; x <= patch.x1; ++x)
-                if (canvas.offset(x, y, seen).norm() <= radius_m)
-                    canvas.put(x, y, seen.z(), p.z(), 1.0);
-    }
-    canvas.shadeGaps(8.0 * canvas.metresPerPixel());
-    return canvas.take();
+    return drawPoints(points_map, view, frame, [&](const Canvas& canvas, std::size_t i) {
+        return canvas.colourOf(points_map[i].z());
+    });
+}
+
+Picture renderPoints(const Points& points_map, const std::vector<Rgb>& colours,
+                     const View& view, const Frame& frame) {
+    requireValid(view);
+    if (colours.size() != points_map.size())
+        throw std::invalid_argument("as many colours as points are needed");
+    return drawPoints(points_map, view, frame,
+                      [&](const Canvas&, std::size_t i) { return colours[i]; });
 }
 
 Picture renderVoxels(const Points& centres_map, double edge_m, const View& view,

@@ -1,7 +1,7 @@
 #include "map_archive.h"
 
 #include <algorithm>
-#include <cstring>
+#include <limits>
 #include <stdexcept>
 
 #include "option_fields.h"
@@ -16,6 +16,8 @@ namespace {
 // Layout: u8 flags of the generic map parameters; insertion, likelihood and
 // render options, each as
 //   u8 fields, then each: u8 length, name, f64 value
+//   from version 2 on, options that are texts: u8 fields, then each: u8 length, name, u16
+//   length, text
 // then u64 bytes and the buffer of hgmm::Map::save. Version 1 differs from 0 in the options
 // that it holds.
 
@@ -42,15 +44,36 @@ void setFlags(std::uint8_t flags, mrpt::maps::TMapGenericParams& p) {
     p.enableObservationInsertion = (flags & 4U) != 0;
 }
 
+template <typename Length>
+void writeText(CArchive& out, const std::string& text) {
+    if (text.size() > std::numeric_limits<Length>::max())
+        fail("the option '" + text.substr(0, 40) + "...' is too long to be stored");
+    out << static_cast<Length>(text.size());
+    out.WriteBuffer(text.data(), text.size());
+}
+
+template <typename Length>
+std::string readText(CArchive& in) {
+    std::string text(in.ReadAs<Length>(), '\0');
+    readExactly(in, text.data(), text.size());
+    return text;
+}
+
 template <typename Options>
 void writeOptions(CArchive& out, Options options) {
     const OptionFields fields = fieldsOf(options);
-    out << static_cast<std::uint8_t>(fields.size());
-    for (const OptionField& field : fields) {
-        const auto length = static_cast<std::uint8_t>(std::strlen(field.name));
-        out << length;
-        out.WriteBuffer(field.name, length);
-        out << numberOf(field);
+    const auto texts = std::count_if(fields.begin(), fields.end(),
+                                     [](const OptionField& f) { return f.isText(); });
+    for (const bool text : {false, true}) {
+        out << static_cast<std::uint8_t>(text ? texts : fields.size() - texts);
+        for (const OptionField& field : fields) {
+            if (field.isText() != text) continue;
+            writeText<std::uint8_t>(out, field.name);
+            if (text)
+                writeText<std::uint16_t>(out, textOf(field));
+            else
+                out << numberOf(field);
+        }
     }
 }
 
@@ -60,23 +83,31 @@ bool isRetired(const std::string& name) {
     return name == "leafPerRange" || name == "cellPerRange";
 }
 
+/// The field of a name and kind; nothing for one that does not matter any more.
+const OptionField* findStored(const OptionFields& fields, const std::string& name,
+                              bool isText, std::uint8_t version) {
+    for (const OptionField& field : fields)
+        if (field.isText() == isText && field.isStoredAs(name)) return &field;
+    if (version == 0 && isRetired(name)) return nullptr;
+    fail("it holds an option '" + name + "' that this version does not know");
+}
+
 /// Fields are found by name; one that is not stored keeps its default.
 template <typename Options>
 Options readOptions(CArchive& in, std::uint8_t version) {
     Options options;
     const OptionFields fields = fieldsOf(options);
-    const auto count = in.ReadAs<std::uint8_t>();
-    for (unsigned i = 0; i < count; ++i) {
-        std::string name(in.ReadAs<std::uint8_t>(), '\0');
-        readExactly(in, name.data(), name.size());
+    for (unsigned left = in.ReadAs<std::uint8_t>(); left > 0; --left) {
+        const auto name = readText<std::uint8_t>(in);
         const auto value = in.ReadAs<double>();
-        const auto field =
-            std::find_if(fields.begin(), fields.end(),
-                         [&](const OptionField& f) { return f.isStoredAs(name); });
-        if (field == fields.end() && version == 0 && isRetired(name)) continue;
-        if (field == fields.end())
-            fail("it holds an option '" + name + "' that this version does not know");
-        setNumber(*field, value);
+        if (const auto* field = findStored(fields, name, false, version))
+            setNumber(*field, value);
+    }
+    if (version < 2) return options;
+    for (unsigned left = in.ReadAs<std::uint8_t>(); left > 0; --left) {
+        const auto name = readText<std::uint8_t>(in);
+        const auto text = readText<std::uint16_t>(in);
+        setText(*findStored(fields, name, true, version), text);
     }
     return options;
 }

@@ -8,7 +8,7 @@
 namespace hgmm::mrpt_bridge {
 
 /// Version of the layout that writeMap uses; readMap knows it and all before.
-constexpr std::uint8_t kArchiveVersion = 1;
+constexpr std::uint8_t kArchiveVersion = 2;
 
 void writeMap(mrpt::serialization::CArchive& out, const mrpt::maps::CHGMMOccupancyMap& map,
               Encoding encoding);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
+#include "hgmm/mrpt_bridge/modality_colours.h"
 #include "hgmm/mrpt_bridge/voxel_grid.h"
 
 using mrpt::opengl::COctoMapVoxels;
@@ -26,6 +28,31 @@ Bounds boundsOf(const VoxelGrid& grid) {
     bounds.low.array() -= 0.5 * grid.resolution_m;
     bounds.high.array() += 0.5 * grid.resolution_m;
     return bounds;
+}
+
+bool showsModality(const RenderParams& params) {
+    return static_cast<EllipsoidColour>(params.colour) == EllipsoidColour::kModality;
+}
+
+/// What the mode modulates: the colour of the object, which filters that of the modality
+/// where one is shown.
+std::vector<mrpt::img::TColorf> baseColours(const Map& map, const RenderParams& params,
+                                            const VoxelGrid& grid,
+                                            const mrpt::img::TColorf& general) {
+    std::vector<mrpt::img::TColorf> colours(grid.voxels.size(), general);
+    if (!showsModality(params)) return colours;
+    std::vector<std::size_t> occupied;
+    std::vector<Eigen::Vector3d> places_map;
+    for (std::size_t i = 0; i < grid.voxels.size(); ++i) {
+        if (!grid.voxels[i].occupied) continue;
+        occupied.push_back(i);
+        places_map.push_back(grid.voxels[i].place_map);
+    }
+    const auto shown = modalityColours(map, params.modality, places_map);
+    for (std::size_t k = 0; k < occupied.size(); ++k)
+        colours[occupied[k]] = {shown[k].R * general.R, shown[k].G * general.G,
+                                shown[k].B * general.B, general.A};
+    return colours;
 }
 
 mrpt::math::TPoint3D toPoint(const Eigen::Vector3d& p) {
@@ -97,11 +124,14 @@ void fillOctoMapVoxels(const Map& map, const RenderParams& params, COctoMapVoxel
     target.showVoxels(mrpt::opengl::VOXEL_SET_FREESPACE, params.visibleFreeVoxels);
     const Bounds bounds = boundsOf(grid);
     const double margin_m = 0.01;  // COctoMap's: a flat map has no height to divide by
-    for (const Voxel& voxel : grid.voxels) {
+    const std::vector<mrpt::img::TColorf> base =
+        baseColours(map, params, grid, target.getColor());
+    for (std::size_t i = 0; i < grid.voxels.size(); ++i) {
+        const Voxel& voxel = grid.voxels[i];
         const double height = (voxel.centre_map.z() - bounds.low.z()) /
                               (bounds.high.z() - bounds.low.z() + margin_m);
         appendVoxel(voxel, grid.resolution_m,
-                    voxelColour(target.getVisualizationMode(), target.getColor(),
+                    voxelColour(target.getVisualizationMode(), base[i],
                                 voxel.occupancy.probability(), height),
                     params.generateGridLines, target);
     }
@@ -114,7 +144,8 @@ void appendVoxels(const Map& map, const RenderParams& params,
                   mrpt::opengl::CSetOfObjects& objects) {
     if (!params.drawVoxels) return;
     auto voxels = COctoMapVoxels::Create();
-    voxels->setVisualizationMode(COctoMapVoxels::COLOR_FROM_HEIGHT);
+    voxels->setVisualizationMode(showsModality(params) ? COctoMapVoxels::FIXED
+                                                       : COctoMapVoxels::COLOR_FROM_HEIGHT);
     fillOctoMapVoxels(map, params, *voxels);
     voxels->showGridLines(params.generateGridLines);
     objects.insert(voxels);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iostream>
 #include <numeric>
+#include <sstream>
 #include <stdexcept>
 
 namespace hgmm::mrpt_bridge {
@@ -29,12 +30,15 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
     return row.back();
 }
 
+std::string trimmed(std::string text) {
+    text.erase(text.find_last_not_of(" \t\r") + 1);
+    text.erase(0, text.find_first_not_of(" \t"));
+    return text;
+}
+
 /// A value without the comment that may follow it; MRPT itself strips only "//".
 std::string withoutComment(const std::string& text) {
-    std::string value = text.substr(0, text.find_first_of(";#"));
-    value.erase(value.find_last_not_of(" \t\r") + 1);
-    value.erase(0, value.find_first_not_of(" \t"));
-    return value;
+    return trimmed(text.substr(0, text.find_first_of(";#")));
 }
 
 /// Whether the whole text is a number of this type, in the C locale.
@@ -53,17 +57,40 @@ bool parse(std::string text, bool& value) {
     return value || text == "false" || text == "no" || text == "0";
 }
 
+bool parse(const std::string& text, std::string& value) {
+    value = text;
+    return true;
+}
+
+bool parse(const std::string& text, Names& names) {
+    names.clear();
+    if (text.empty()) return true;
+    std::istringstream rest(text + ",");
+    for (std::string name; std::getline(rest, name, ',');) {
+        name = trimmed(name);
+        if (name.empty()) return false;
+        if (name == "rgb")
+            names.insert(names.end(), {"r", "g", "b"});
+        else
+            names.push_back(name);
+    }
+    return true;
+}
+
 const char* expected(const OptionField& field) {
-    static constexpr const char* names[] = {"a number", "a whole number", "true or false"};
+    static constexpr const char* names[] = {"a number", "a whole number", "true or false",
+                                            "a text",
+                                            "names separated by commas, as rgb, intensity"};
     return names[field.member.index()];
 }
 
 void readField(const OptionField& field, const std::string& text,
                const std::string& section) {
-    if (std::visit([&](auto* member) { return parse(text, *member); }, field.member))
-        return;
-    throw std::invalid_argument("[" + section + "] " + field.name + " = '" + text +
-                                "': must be " + expected(field));
+    try {
+        setText(field, text);
+    } catch (const std::invalid_argument& e) {
+        throw std::invalid_argument("[" + section + "] " + e.what());
+    }
 }
 
 std::string toText(double number) {
@@ -72,17 +99,18 @@ std::string toText(double number) {
     return std::string(text, end);
 }
 
-std::string toText(const OptionField& field) {
-    if (const auto* flag = std::get_if<bool*>(&field.member))
-        return **flag ? "true" : "false";
-    return toText(numberOf(field));
+std::string toText(const Names& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text;
 }
 
 }  // namespace
 
 double numberOf(const OptionField& field) {
-    return std::visit([](const auto* member) { return static_cast<double>(*member); },
-                      field.member);
+    if (const auto* real = std::get_if<double*>(&field.member)) return **real;
+    if (const auto* flag = std::get_if<bool*>(&field.member)) return **flag ? 1 : 0;
+    return *std::get<int*>(field.member);
 }
 
 void setNumber(const OptionField& field, double value) {
@@ -95,6 +123,21 @@ void setNumber(const OptionField& field, double value) {
         **flag = whole != 0;
     else
         *std::get<int*>(field.member) = static_cast<int>(whole);
+}
+
+std::string textOf(const OptionField& field) {
+    if (const auto* text = std::get_if<std::string*>(&field.member)) return **text;
+    if (const auto* names = std::get_if<Names*>(&field.member)) return toText(**names);
+    if (const auto* flag = std::get_if<bool*>(&field.member))
+        return **flag ? "true" : "false";
+    return toText(numberOf(field));
+}
+
+void setText(const OptionField& field, const std::string& text) {
+    if (std::visit([&](auto* member) { return parse(text, *member); }, field.member))
+        return;
+    throw std::invalid_argument(std::string(field.name) + " = '" + text + "': must be " +
+                                expected(field));
 }
 
 void readSection(const OptionFields& fields, const mrpt::config::CConfigFileBase& source,
@@ -113,13 +156,13 @@ void readSection(const OptionFields& fields, const mrpt::config::CConfigFileBase
 void writeSection(const OptionFields& fields, mrpt::config::CConfigFileBase& target,
                   const std::string& section) {
     for (const OptionField& field : fields)
-        target.write(section, field.name, toText(field));
+        target.write(section, field.name, textOf(field));
 }
 
 void print(const OptionFields& fields, const std::string& title, std::ostream& out) {
     out << "[" << title << "]\n";
     for (const OptionField& field : fields)
-        out << field.name << " = " << toText(field) << "\n";
+        out << field.name << " = " << textOf(field) << "\n";
     out << "\n";
 }
 

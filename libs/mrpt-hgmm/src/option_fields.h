@@ -12,11 +12,18 @@
 /// are read and written, options printed and serialised.
 namespace hgmm::mrpt_bridge {
 
+/// Names separated by commas, where "rgb" is short for "r, g, b".
+using Names = std::vector<std::string>;
+
 struct OptionField {
     const char* name;  ///< of the member and of the key
-    std::variant<double*, int*, bool*> member;
+    std::variant<double*, int*, bool*, std::string*, Names*> member;
     const char* formerName = nullptr;  ///< under which version 0 of the archive holds it
 
+    bool isText() const {
+        return std::holds_alternative<std::string*>(member) ||
+               std::holds_alternative<Names*>(member);
+    }
     bool isStoredAs(const std::string& stored) const {
         return stored == name || (formerName && stored == formerName);
     }
@@ -27,10 +34,15 @@ OptionFields fieldsOf(mrpt::maps::CHGMMOccupancyMap::TInsertionOptions& options)
 OptionFields fieldsOf(mrpt::maps::CHGMMOccupancyMap::TLikelihoodOptions& options);
 OptionFields fieldsOf(mrpt::maps::CHGMMOccupancyMap::TRenderOptions& options);
 
-/// The value as a number (a bool is 0 or 1), and back; int and bool members take the
-/// nearest.
+/// The value of a field that is no text as a number (a bool is 0 or 1), and back; int and
+/// bool members take the nearest.
 double numberOf(const OptionField& field);
 void setNumber(const OptionField& field, double value);
+
+/// The value as a configuration file holds it, and back. Throws std::invalid_argument,
+/// saying what it must be, for a text that is none.
+std::string textOf(const OptionField& field);
+void setText(const OptionField& field, const std::string& text);
 
 /// Whether all parameters are equal.
 bool sameParams(const MapParams& a, const MapParams& b);

@@ -17,6 +17,7 @@ OptionFields fieldsOf(Insertion& options) {
     forEachField(options.params, [&](const char* name, auto& member) {
         fields.push_back({name, &member});
     });
+    fields.push_back({"modalities", &options.params.modalities});
     return fields;
 }
 
@@ -24,7 +25,7 @@ bool sameParams(const MapParams& a, const MapParams& b) {
     std::vector<double> of_a, of_b;
     forEachField(a, [&](const char*, const auto& value) { of_a.push_back(double(value)); });
     forEachField(b, [&](const char*, const auto& value) { of_b.push_back(double(value)); });
-    return of_a == of_b;
+    return of_a == of_b && a.modalities == b.modalities;
 }
 
 OptionFields fieldsOf(Likelihood& options) {
@@ -43,6 +44,7 @@ OptionFields fieldsOf(Render& options) {
             {"sigmas", &options.sigmas},
             {"maxEllipsoids", &options.maxEllipsoids},
             {"colour", &options.colour, "colourByWeight"},
+            {"modality", &options.modality},
             {"voxelResolution_m", &options.voxelResolution_m},
             {"minOccupied", &options.minOccupied},
             {"generateOccupiedVoxels", &options.generateOccupiedVoxels},
@@ -70,7 +72,7 @@ void RenderParams::validate() const {
     requireInRange("level", level, 0, 1000);
     requireInRange("sigmas", sigmas, 0.01, 10.0);
     requireInRange("maxEllipsoids", maxEllipsoids, 1, 1e7);
-    requireInRange("colour", colour, 0, static_cast<int>(EllipsoidColour::kDeviation));
+    requireInRange("colour", colour, 0, static_cast<int>(EllipsoidColour::kModality));
     if (voxelResolution_m != 0.0)
         requireInRange("voxelResolution_m", voxelResolution_m, 1e-4, 1e4);
     requireInRange("minOccupied", minOccupied, 0.01, 0.99);

@@ -1,6 +1,7 @@
-#include <functional>
+#include <cmath>
 #include <vector>
 
+#include "image_colour.h"
 #include "scan_readers.h"
 
 using mrpt::obs::CObservation3DRangeScan;
@@ -32,88 +33,19 @@ class LoadedScope {
     bool unload_ = false;
 };
 
-enum class Colour { none, grey, rgb };
-
-/// A camera that nobody calibrated (fx = 0) is taken to be the depth camera.
-bool sameIntrinsics(const mrpt::img::TCamera& depth, const mrpt::img::TCamera& colour) {
-    if (depth.fx() <= 0 || colour.fx() <= 0) return true;
-    constexpr double maxPixels = 0.5;
-    return std::abs(depth.fx() - colour.fx()) < maxPixels &&
-           std::abs(depth.fy() - colour.fy()) < maxPixels &&
-           std::abs(depth.cx() - colour.cx()) < maxPixels &&
-           std::abs(depth.cy() - colour.cy()) < maxPixels;
-}
-
-/// What the intensity image says about the depth pixels, if it shows the same pixels.
-Colour alignedColour(const CObservation3DRangeScan& o) {
-    if (!o.hasIntensityImage || o.intensityImage.isEmpty()) return Colour::none;
-    if (o.intensityImageChannel != CObservation3DRangeScan::CH_VISIBLE) return Colour::none;
-    if (!o.doDepthAndIntensityCamerasCoincide()) return Colour::none;
-    if (!sameIntrinsics(o.cameraParams, o.cameraParamsIntensity)) return Colour::none;
-    if (o.intensityImage.getPixelDepth() != mrpt::img::PixelDepth::D8U) return Colour::none;
-    const bool byRanges = o.hasRangeImage && o.rangeImage.rows() > 0;
-    const auto rows = byRanges ? o.rangeImage.rows() : int(o.cameraParams.nrows);
-    const auto cols = byRanges ? o.rangeImage.cols() : int(o.cameraParams.ncols);
-    if (int(o.intensityImage.getHeight()) != rows ||
-        int(o.intensityImage.getWidth()) != cols)
-        return Colour::none;
-    return o.intensityImage.isColor() ? Colour::rgb : Colour::grey;
-}
-
-/// Writes points together with the colour of the pixel that they were seen in.
-class PixelWriter {
- public:
-    PixelWriter(const CObservation3DRangeScan& o, Colour colour, Scan& scan)
-        : image_(o.intensityImage), colour_(colour), writer_(scan, channels(colour)) {}
-
-    void reserve(std::size_t n) { writer_.reserve(n); }
-
-    void pushBack(float x, float y, float z, unsigned row, unsigned col) {
-        constexpr float scale = 1.F / 255.F;
-        const auto value = [&](unsigned channel) {
-            return scale * image_.at<uint8_t>(col, row, channel);
-        };
-        switch (colour_) {  // images are stored blue first
-            case Colour::none:
-                return writer_.pushBack(x, y, z);
-            case Colour::grey:
-                return writer_.pushBack(x, y, z, value(0));
-            case Colour::rgb:
-                return writer_.pushBack(x, y, z, value(2), value(1), value(0));
-        }
-    }
-
- private:
-    static std::initializer_list<const char*> channels(Colour colour) {
-        static constexpr std::initializer_list<const char*> none{}, grey{"intensity"},
-            rgb{"r", "g", "b"};
-        return colour == Colour::none ? none : colour == Colour::grey ? grey : rgb;
-    }
-
-    const mrpt::img::CImage& image_;
-    Colour colour_;
-    ScanWriter writer_;
-};
-
 void readPoints(const CObservation3DRangeScan& o, Scan& scan) {
     const std::size_t n = o.points3D_x.size();
-    Colour colour = alignedColour(o);
-    if (o.points3D_idxs_x.size() != n || o.points3D_idxs_y.size() != n)
-        colour = Colour::none;
-    PixelWriter writer(o, colour, scan);
-    writer.reserve(n);
+    const bool pixelsKnown = o.points3D_idxs_x.size() == n && o.points3D_idxs_y.size() == n;
+    std::vector<PixelOfPoint> pixels;
+    scan.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
         const float x = o.points3D_x[i], y = o.points3D_y[i], z = o.points3D_z[i];
         if (x == 0 && y == 0 && z == 0) continue;  // MRPT's mark of an invalid point
-        unsigned row = 0, col = 0;
-        if (colour != Colour::none) {
-            row = o.points3D_idxs_y[i];
-            col = o.points3D_idxs_x[i];
-            if (row >= o.intensityImage.getHeight() || col >= o.intensityImage.getWidth())
-                continue;
-        }
-        writer.pushBack(x, y, z, row, col);
+        if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) continue;
+        scan.pushBack(x, y, z);
+        if (pixelsKnown) pixels.push_back({o.points3D_idxs_y[i], o.points3D_idxs_x[i]});
     }
+    addImageColours(o, pixels, scan);
 }
 
 /// Directions (1, ky, kz) of pixels, from MRPT's table if the lens distorts and else
@@ -149,7 +81,7 @@ bool readRanges(const CObservation3DRangeScan& o, Scan& scan) {
         return false;
     }
     const PixelRays rays(o);
-    PixelWriter writer(o, alignedColour(o), scan);
+    std::vector<PixelOfPoint> pixels;
     for (int row = 0; row < o.rangeImage.rows(); ++row)
         for (int col = 0; col < o.rangeImage.cols(); ++col) {
             const auto raw = o.rangeImage(row, col);
@@ -158,9 +90,12 @@ bool readRanges(const CObservation3DRangeScan& o, Scan& scan) {
             const double range = double(raw) * o.rangeUnits;
             const double x =
                 o.range_is_depth ? range : range / std::sqrt(1 + ky * ky + kz * kz);
-            writer.pushBack(static_cast<float>(x), static_cast<float>(ky * x),
-                            static_cast<float>(kz * x), row, col);
+            if (!std::isfinite(x)) continue;
+            scan.pushBack(static_cast<float>(x), static_cast<float>(ky * x),
+                          static_cast<float>(kz * x));
+            pixels.push_back({row, col});
         }
+    addImageColours(o, pixels, scan);
     return true;
 }
 

@@ -1,6 +1,10 @@
 #include <mrpt/maps/CColouredPointsMap.h>
 #include <mrpt/maps/CPointsMapXYZI.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "scan_readers.h"
 
 using namespace mrpt::obs;
@@ -18,12 +22,28 @@ void forEachPoint(const mrpt::maps::CPointsMap& cloud, Push&& push) {
     for (std::size_t i = 0; i < x.size(); ++i) push(i, x[i], y[i], z[i]);
 }
 
+/// A value in [0, 1], or NaN, "not measured", for one that is not finite.
+float measured(float value) {
+    return std::isfinite(value) ? std::clamp(value, 0.F, 1.F)
+                                : std::numeric_limits<float>::quiet_NaN();
+}
+
+/// What a cloud's intensities are to be multiplied by. MRPT asks for [0, 1], but drivers
+/// and files also hold the counts of 8 or 16 bits; which it is shows in the largest.
+float intensityScale(const mrpt::maps::CPointsMapXYZI& cloud) {
+    float largest = 0.F;
+    for (const float value : cloud.getPointsBufferRef_intensity())
+        if (std::isfinite(value)) largest = std::max(largest, value);
+    return largest <= 1.F ? 1.F : largest <= 255.F ? 1.F / 255.F : 1.F / 65535.F;
+}
+
 void readCloud(const mrpt::maps::CPointsMap& cloud, Scan& scan) {
     if (const auto* xyzi = dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&cloud)) {
         ScanWriter writer(scan, {"intensity"});
         writer.reserve(cloud.size());
+        const float scale = intensityScale(*xyzi);
         forEachPoint(cloud, [&](std::size_t i, float x, float y, float z) {
-            writer.pushBack(x, y, z, xyzi->getPointIntensity_fast(i));
+            writer.pushBack(x, y, z, measured(scale * xyzi->getPointIntensity_fast(i)));
         });
     } else if (const auto* coloured =
                    dynamic_cast<const mrpt::maps::CColouredPointsMap*>(&cloud)) {
@@ -32,7 +52,7 @@ void readCloud(const mrpt::maps::CPointsMap& cloud, Scan& scan) {
         forEachPoint(cloud, [&](std::size_t i, float x, float y, float z) {
             float r = 0, g = 0, b = 0;
             coloured->getPointColor_fast(i, r, g, b);
-            writer.pushBack(x, y, z, r, g, b);
+            writer.pushBack(x, y, z, measured(r), measured(g), measured(b));
         });
     } else {
         ScanWriter writer(scan, {});
@@ -46,11 +66,13 @@ void readCloud(const mrpt::maps::CPointsMap& cloud, Scan& scan) {
 void readCloud(const CObservationVelodyneScan::TPointCloud& cloud, Scan& scan) {
     constexpr float scale = 1.F / 255.F;
     const bool bright = cloud.intensity.size() == cloud.size();
-    ScanWriter writer(scan, {"intensity"});
+    ScanWriter writer = bright ? ScanWriter(scan, {"intensity"}) : ScanWriter(scan, {});
     writer.reserve(cloud.size());
     for (std::size_t i = 0; i < cloud.size(); ++i)
-        writer.pushBack(cloud.x[i], cloud.y[i], cloud.z[i],
-                        bright ? scale * cloud.intensity[i] : 0.F);
+        if (bright)
+            writer.pushBack(cloud.x[i], cloud.y[i], cloud.z[i], scale * cloud.intensity[i]);
+        else
+            writer.pushBack(cloud.x[i], cloud.y[i], cloud.z[i]);
 }
 
 }  // namespace

@@ -201,16 +201,21 @@ Region regionOf(const Map& map, const VoxelParams& params, const std::vector<Blo
 /// Answers at many points, keeping the highest P(occ) of each cell.
 class CellAnswers {
  public:
+    struct Best {
+        Occupancy answer;
+        Eigen::Vector3d place_map;
+    };
+
     CellAnswers(const Map& map, std::size_t level, std::size_t cells)
         : map_(map), level_(level), best_(cells) {
-        for (Occupancy& answer : best_) answer.occupied = -1.F;
+        for (Best& best : best_) best.answer.occupied = -1.F;
     }
     void ask(std::size_t cell, const Eigen::Vector3d& point_map) {
         cells_.push_back(cell);
         points_.push_back(point_map);
         if (points_.size() == kBatch) flush();
     }
-    std::vector<Occupancy> take() {
+    std::vector<Best> take() {
         flush();
         return std::move(best_);
     }
@@ -222,15 +227,16 @@ class CellAnswers {
         answers_.resize(points_.size());
         map_.occupancy(points_.data(), points_.size(), answers_.data(), level_);
         for (std::size_t i = 0; i < cells_.size(); ++i)
-            if (answers_[i].occupied > best_[cells_[i]].occupied)
-                best_[cells_[i]] = answers_[i];
+            if (answers_[i].occupied > best_[cells_[i]].answer.occupied)
+                best_[cells_[i]] = {answers_[i], points_[i]};
         cells_.clear();
         points_.clear();
     }
 
     const Map& map_;
     std::size_t level_;
-    std::vector<Occupancy> best_, answers_;
+    std::vector<Best> best_;
+    std::vector<Occupancy> answers_;
     std::vector<std::size_t> cells_;
     std::vector<Eigen::Vector3d> points_;
 };
@@ -284,12 +290,14 @@ VoxelGrid voxelise(const Map& map, const VoxelParams& params) {
         answers.ask(i, region.lattice.centre_map(cells[i]));
     for (const Blob& blob : surface) askMidPlane(blob, region, answers);
 
-    const std::vector<Occupancy> best = answers.take();
+    const std::vector<CellAnswers::Best> best = answers.take();
     VoxelGrid grid{region.lattice.edge_m, {}};
     for (std::size_t i = 0; i < cells.size(); ++i) {
-        const bool occupied = best[i].occupied >= params.minOccupied;
-        if (occupied ? params.occupied : params.free && best[i].free > 0.5F)
-            grid.voxels.push_back({region.lattice.centre_map(cells[i]), best[i], occupied});
+        const Occupancy& answer = best[i].answer;
+        const bool occupied = answer.occupied >= params.minOccupied;
+        if (occupied ? params.occupied : params.free && answer.free > 0.5F)
+            grid.voxels.push_back(
+                {region.lattice.centre_map(cells[i]), answer, best[i].place_map, occupied});
     }
     return grid;
 }

@@ -11,6 +11,10 @@ struct Picture {
     std::vector<std::uint8_t> rgb;
 };
 
+/// Pictures from left to right, a little apart, their upper edges in line. Throws
+/// std::invalid_argument for none at all.
+Picture besideEachOther(const std::vector<Picture>& pictures);
+
 /// The bytes of a PNG file. Throws std::invalid_argument if the picture is empty or `rgb`
 /// is not of its size.
 std::string pngOf(const Picture& picture);

@@ -1,11 +1,20 @@
 #pragma once
+#include <array>
 #include <optional>
+#include <vector>
 
 #include "hgmm/evaluation/picture.h"
 #include "hgmm/evaluation/points.h"
 #include "hgmm/mixture.h"
 
 namespace hgmm::evaluation {
+
+/// Red, green and blue, each in [0, 1].
+using Rgb = std::array<double, 3>;
+
+/// Dark blue at 0 to yellow at 1 by rising lightness: ordered for every kind of colour
+/// vision. Shares beyond are those at the ends.
+Rgb scaleColour(double share);
 
 /// How to look at a map: an orthographic view from outside.
 struct View {
@@ -45,6 +54,11 @@ Picture renderEllipsoids(const Mixture<3>& mixture, const View& view,
 /// depth, which brings out edges. Throws std::invalid_argument for a view outside its
 /// ranges.
 Picture renderPoints(const Points& points_map, const View& view, const Frame& frame);
+
+/// The same with a colour for each point. Throws std::invalid_argument too if there are not
+/// as many colours as points.
+Picture renderPoints(const Points& points_map, const std::vector<Rgb>& colours,
+                     const View& view, const Frame& frame);
 
 /// Draws a cube around each finite point, its sides along the axes of the map, coloured by
 /// height. Throws std::invalid_argument for a view outside its ranges or an edge that is

@@ -34,7 +34,9 @@ enum class Draw : std::uint64_t {
     uniformFree = 5,
     nearFree = 6,
     rangeNoise = 7,
-    room = 8
+    room = 8,
+    modality = 9,
+    modalityQueries = 10
 };
 
 /// The random numbers of one use in one scan.

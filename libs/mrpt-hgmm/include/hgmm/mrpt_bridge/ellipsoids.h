@@ -6,8 +6,8 @@
 
 namespace hgmm::mrpt_bridge {
 
-/// Appends one ellipsoid per surface component, in the map frame, unless drawEllipsoids is
-/// false.
+/// Appends one ellipsoid per surface component, or per component of the modality that
+/// colours show, in the map frame, unless drawEllipsoids is false.
 void appendEllipsoids(const Map& map, const RenderParams& params,
                       mrpt::opengl::CSetOfObjects& objects);
 

@@ -20,15 +20,19 @@ mrpt::poses::CPose3D toCPose3D(const Pose& pose);
 /// | observation | points | channels in [0, 1] |
 /// | --- | --- | --- |
 /// | CObservation2DRangeScan | rays flagged valid; deltaPitch is respected | |
-/// | CObservation3DRangeScan | points3D, else the range image | r,g,b or intensity, if
-/// aligned | | CObservationPointCloud | the cloud | intensity (XYZI) or r,g,b (coloured) |
+/// | CObservation3DRangeScan | points3D, else the range image | r,g,b or intensity |
+/// | CObservationPointCloud | the cloud | intensity (XYZI) or r,g,b (coloured) |
 /// | CObservationVelodyneScan | point_cloud, else generated from the packets | intensity |
 /// | CObservationRotatingScan | 1 row; 16 rows (VLP-16); 32 rows (HDL-32E) | intensity |
 ///
 /// Returns, pixels and points that are invalid or not finite are left out. Fields in
-/// external storage are loaded, and unloaded again if they were not in memory before. A
-/// colour or intensity image counts as aligned if both cameras coincide and the images have
-/// the same size.
+/// external storage are loaded, and unloaded again if they were not in memory before.
+///
+/// A channel value that is NaN was not measured. The image of a 3D range scan gives points
+/// the colour of their pixel if both cameras coincide and the images have the same size;
+/// otherwise points are projected into it by its own pose, intrinsics and distortion, and
+/// those outside it or hidden from it have no colour. Intensities of clouds that exceed 1
+/// are divided by 255, or by 65535 if one exceeds 255; those of other types are in 8 bits.
 ///
 /// @param robotPose pose of the robot in the map frame; the origin if not given
 /// @return nothing for types not listed; also, with one message per process on stderr, for

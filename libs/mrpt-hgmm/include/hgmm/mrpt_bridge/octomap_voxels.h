@@ -15,11 +15,12 @@ mrpt::img::TColor voxelColour(mrpt::opengl::COctoMapVoxels::visualization_mode_t
                               const mrpt::img::TColorf& general, double probability,
                               double height);
 
-/// Implements CHGMMOccupancyMap::getAsOctoMapVoxels.
+/// Implements CHGMMOccupancyMap::getAsOctoMapVoxels. If params.colour is kModality, the
+/// mode modulates the colour of the modality in each occupied voxel.
 void fillOctoMapVoxels(const Map& map, const RenderParams& params,
                        mrpt::opengl::COctoMapVoxels& target);
 
-/// Appends voxels coloured by height if drawVoxels is true.
+/// Appends voxels, coloured by height or modality, if drawVoxels is true.
 void appendVoxels(const Map& map, const RenderParams& params,
                   mrpt::opengl::CSetOfObjects& objects);
 

@@ -1,13 +1,15 @@
 #pragma once
+#include <string>
 
 namespace hgmm::mrpt_bridge {
 
-/// What the colour of an ellipsoid shows, from blue to red.
+/// What the colour of an ellipsoid shows, from blue to red but for kModality.
 enum class EllipsoidColour : int {
     kHeight = 0,     ///< of its mean, from the lowest to the highest drawn
     kWeight = 1,     ///< logarithm of its weight, from the lightest to the heaviest drawn
     kOccupied = 2,   ///< P(occ) at its mean, from 0 to 1 (thesis eq. 4.15)
     kDeviation = 3,  ///< sqrt(Var[W]) at its mean, from the surest to the least sure drawn
+    kModality = 4,   ///< what RenderParams::modality names; also of occupied voxels
 };
 
 /// How a map is drawn: as ellipsoids and as voxels.
@@ -19,7 +21,12 @@ struct RenderParams {
     bool drawVoxels = false;     ///< cubes, as getAsOctoMapVoxels makes them
     double sigmas = 2.0;         ///< size of the ellipsoids [sigma], 0.01 to 10
     int maxEllipsoids = 10000;   ///< only those with most support are drawn [count], >= 1
-    int colour = 0;  ///< EllipsoidColour: 0 height, 1 weight, 2 P(occ), 3 deviation
+    /// EllipsoidColour: 0 height, 1 weight, 2 P(occ), 3 deviation, 4 modality
+    int colour = 0;
+    /// What is shown if colour is 4: "rgb" as it was measured, or another modality of the
+    /// map from blue to red; empty: rgb if the map has it, else its first. Grey where
+    /// unknown.
+    std::string modality;
 
     double voxelResolution_m = 0.0;  ///< edge of voxels [m]; 0: derived from the map
     double minOccupied = 0.5;        ///< P(occ) of an occupied voxel [1], 0.01 to 0.99

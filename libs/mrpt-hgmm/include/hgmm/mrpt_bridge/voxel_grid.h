@@ -35,7 +35,8 @@ struct Voxel {
     /// surface components and where their mid-planes cross the cell: what is thinner or
     /// smaller than a cell counts.
     Occupancy occupancy;
-    bool occupied;  ///< P(occ) >= minOccupied; otherwise P(free) > 0.5
+    Eigen::Vector3d place_map;  ///< where in the cell that answer was given [m]
+    bool occupied;              ///< P(occ) >= minOccupied; otherwise P(free) > 0.5
 };
 
 /// Cells that are occupied or free; all others are unknown or undecided.

@@ -124,7 +124,8 @@ class CHGMMOccupancyMap : public CMetricMap {
     /// Replaces the content of `gl_obj` by cubes of one size: set VOXEL_SET_OCCUPIED where
     /// P(occ) >= renderOptions.minOccupied and VOXEL_SET_FREESPACE where P(free) > 0.5, as
     /// renderOptions say. Colours follow gl_obj's colour and visualisation mode, as with
-    /// COctoMap. Voxels are made at level renderOptions.level.
+    /// COctoMap; with renderOptions.colour = 4, the mode (usually FIXED) modulates the
+    /// modality's colour in occupied voxels. Voxels are made at level renderOptions.level.
     /// @throws std::invalid_argument for options out of range, and for a resolution at
     /// which there would be more than 2^24 voxels.
     void getAsOctoMapVoxels(mrpt::opengl::COctoMapVoxels& gl_obj) const;
