@@ -7,6 +7,7 @@
 #include "format.h"
 #include "free_space_study.h"
 #include "incremental_study.h"
+#include "landscape_study.h"
 #include "map_setup.h"
 #include "regression_study.h"
 #include "room_study.h"
@@ -88,6 +89,12 @@ std::vector<Study> makeStudies() {
          "shares of right answers in a noiseless box room; add noise with --range-noise S",
          Needs::testScans,
          roomStudy,
+         {}},
+        {"landscape",
+         "whether the likelihood of test scans has its maximum at their poses, and hill "
+         "climbing leads there",
+         Needs::testScans,
+         landscapeStudy,
          {}}};
 }
 

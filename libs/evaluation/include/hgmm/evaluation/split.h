@@ -34,7 +34,8 @@ enum class Draw : std::uint64_t {
     uniformFree = 5,
     nearFree = 6,
     rangeNoise = 7,
-    room = 8
+    room = 8,
+    startPose = 9
 };
 
 /// The random numbers of one use in one scan.
