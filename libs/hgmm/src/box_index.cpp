@@ -27,8 +27,17 @@ void BoxIndex::forEachCell(const Placement& p, Visitor&& visit) {
                 visit(keyOf(p.octave, x, y, z));
 }
 
-void BoxIndex::growTable() {
-    std::vector<Slot> old(slots_.empty() ? 256 : slots_.size() * 2);
+void BoxIndex::reserve(std::size_t n) {
+    // As maps go, a box touches some four cells that no other one has touched.
+    constexpr std::size_t slotsPerBox = 8;
+    std::size_t slots = 256;
+    while (slots < slotsPerBox * n) slots *= 2;
+    if (slots > slots_.size()) growTable(slots);
+    placements_.reserve(n);
+}
+
+void BoxIndex::growTable(std::size_t slots) {
+    std::vector<Slot> old(slots);
     old.swap(slots_);
     const std::size_t mask = slots_.size() - 1;
     for (const Slot& slot : old) {
@@ -40,7 +49,8 @@ void BoxIndex::growTable() {
 }
 
 BoxIndex::Slot& BoxIndex::findOrAdd(std::uint64_t key) {
-    if (2 * (usedSlots_ + 1) > slots_.size()) growTable();
+    if (2 * (usedSlots_ + 1) > slots_.size())
+        growTable(slots_.empty() ? 256 : 2 * slots_.size());
     const std::size_t mask = slots_.size() - 1;
     std::size_t s = hash(key) & mask;
     while (slots_[s].used && slots_[s].key != key) s = (s + 1) & mask;

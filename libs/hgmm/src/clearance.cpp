@@ -4,21 +4,35 @@
 
 namespace hgmm {
 
+namespace {
+
+/// The cell of a mean in the smallest octave; those of the others are its parents.
+LatticeCell smallestCell(const Eigen::Matrix<float, 3, 1, Eigen::DontAlign>& mean) {
+    return LatticeCell::at(mean.cast<double>(), Clearance::kMinOctave);
+}
+
+}  // namespace
+
 void Clearance::count(const LatticeCell& cell, int change) {
-    const auto entry = components_.try_emplace(cell, 0U).first;
-    entry->second += static_cast<std::uint32_t>(change);
-    if (entry->second == 0) components_.erase(entry);
+    std::uint32_t& components = *components_.tryEmplace(cell, 0U).first;
+    components += static_cast<std::uint32_t>(change);
+    if (components == 0) components_.erase(cell);
+}
+
+void Clearance::reserve(std::size_t n) {
+    means_.reserve(n);
+    // Most of the larger cells are shared.
+    components_.reserve(4 * n);
 }
 
 void Clearance::update(std::uint32_t i, const Eigen::Vector3d& mean) {
     const bool isNew = i == means_.size();
     if (isNew) means_.emplace_back();
-    const Eigen::Vector3d before = means_.at(i).cast<double>();
+    LatticeCell old = smallestCell(means_.at(i));
     means_[i] = mean.cast<float>();
-    for (int octave = kMinOctave; octave <= kMaxOctave; ++octave) {
-        const LatticeCell now = LatticeCell::at(means_[i].cast<double>(), octave);
+    LatticeCell now = smallestCell(means_[i]);
+    for (; now.octave <= kMaxOctave; now = now.parent(), old = old.parent()) {
         if (!isNew) {
-            const LatticeCell old = LatticeCell::at(before, octave);
             // Larger cells are the same, too.
             if (old == now) return;
             count(old, -1);
@@ -28,9 +42,9 @@ void Clearance::update(std::uint32_t i, const Eigen::Vector3d& mean) {
 }
 
 void Clearance::removeSwap(std::uint32_t i) {
-    const Eigen::Vector3d mean = means_.at(i).cast<double>();
-    for (int octave = kMinOctave; octave <= kMaxOctave; ++octave)
-        count(LatticeCell::at(mean, octave), -1);
+    for (LatticeCell cell = smallestCell(means_.at(i)); cell.octave <= kMaxOctave;
+         cell = cell.parent())
+        count(cell, -1);
     means_[i] = means_.back();
     means_.pop_back();
 }
@@ -38,21 +52,18 @@ void Clearance::removeSwap(std::uint32_t i) {
 bool Clearance::isNearSurface(const LatticeCell& cell) const {
     LatticeCell around = cell;
     around.octave = std::clamp(cell.octave, kMinOctave, kMaxOctave);
-    if (components_.count(around) > 0) return true;
+    if (holds(around)) return true;
     for (std::int32_t* axis : {&around.x, &around.y, &around.z})
         for (const std::int32_t step : {-1, 2, -1}) {
             *axis += step;
             // The third step only returns to the middle, which was looked at.
-            if (components_.count(around) > 0) return true;
+            if (holds(around)) return true;
         }
     return false;
 }
 
 std::size_t Clearance::liveBytes() const {
-    constexpr std::size_t node =
-        sizeof(LatticeCell) + sizeof(std::uint32_t) + 3 * sizeof(void*);
-    return means_.capacity() * sizeof(Mean) + components_.size() * node +
-           components_.bucket_count() * sizeof(void*);
+    return means_.capacity() * sizeof(Mean) + components_.liveBytes();
 }
 
 }  // namespace hgmm

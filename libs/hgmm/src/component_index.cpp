@@ -24,7 +24,7 @@ void ComponentIndex::update(const Mixture<3>& mixture, std::uint32_t i) {
 
 void ComponentIndex::rebuild(const Mixture<3>& mixture) {
     clear();
-    factors_.reserve(mixture.size());
+    reserve(mixture.size());
     for (std::uint32_t i = 0; i < mixture.size(); ++i) update(mixture, i);
 }
 
@@ -32,6 +32,11 @@ void ComponentIndex::removeSwap(std::uint32_t i) {
     boxes_.removeSwap(i);
     factors_[i] = factors_.back();
     factors_.pop_back();
+}
+
+void ComponentIndex::reserve(std::size_t n) {
+    factors_.reserve(n);
+    boxes_.reserve(n);
 }
 
 void ComponentIndex::clear() {

@@ -58,19 +58,19 @@ class ScanCells {
     }
 
     bool isNearSurface(const LatticeCell& cell) {
-        const auto [entry, isNew] = near_.try_emplace(cell, false);
-        if (isNew) entry->second = clearance_.isNearSurface(cell);
-        return entry->second;
+        const auto [near, isNew] = near_.tryEmplace(cell, false);
+        if (isNew) *near = clearance_.isNearSurface(cell);
+        return *near;
     }
 
     void add(const Gaussian<4>& slab, const LatticeCell& cell) {
-        const auto [entry, isNew] =
-            numbers_.try_emplace(cell, static_cast<std::uint32_t>(cells_.size()));
+        const auto [number, isNew] =
+            numbers_.tryEmplace(cell, static_cast<std::uint32_t>(cells_.size()));
         if (isNew) {
             cells_.push_back(cell);
             sums_.push_back(slab);
         } else {
-            sums_[entry->second] = mergeMoments(sums_[entry->second], slab);
+            sums_[*number] = mergeMoments(sums_[*number], slab);
         }
     }
 
@@ -78,8 +78,8 @@ class ScanCells {
     const Clearance& clearance_;
     const BandParams& band_;
     const double cellAtOneMetre_m_;
-    std::unordered_map<LatticeCell, bool, LatticeCellHash> near_;
-    std::unordered_map<LatticeCell, std::uint32_t, LatticeCellHash> numbers_;
+    LatticeTable<bool> near_;
+    LatticeTable<std::uint32_t> numbers_;
     std::vector<LatticeCell> cells_;
     std::vector<Gaussian<4>> sums_;
 };
@@ -103,9 +103,9 @@ std::vector<std::uint32_t> FreeSpace::insert(const std::vector<RayBundle>& bundl
     std::vector<std::uint32_t> changed;
     for (std::size_t s = 0; s < scan.cells().size(); ++s) {
         const Gaussian<4>& sum = scan.sums()[s];
-        const auto [entry, isNew] = componentOf_.try_emplace(
+        const auto [number, isNew] = componentOf_.tryEmplace(
             scan.cells()[s], static_cast<std::uint32_t>(cells_.size()));
-        const std::uint32_t i = entry->second;
+        const std::uint32_t i = *number;
         if (isNew) {
             cells_.push_back(scan.cells()[s]);
             mixture_.pushBack(storable(sum));
@@ -122,9 +122,9 @@ std::vector<std::uint32_t> FreeSpace::insert(const std::vector<RayBundle>& bundl
 
 std::uint32_t FreeSpace::merge(const Gaussian<4>& component, int octave) {
     const LatticeCell cell = LatticeCell::at(component.mean.head<3>(), octave);
-    const auto [entry, isNew] =
-        componentOf_.try_emplace(cell, static_cast<std::uint32_t>(cells_.size()));
-    const std::uint32_t i = entry->second;
+    const auto [number, isNew] =
+        componentOf_.tryEmplace(cell, static_cast<std::uint32_t>(cells_.size()));
+    const std::uint32_t i = *number;
     if (isNew) {
         cells_.push_back(cell);
         mixture_.pushBack(storable(component));
@@ -135,18 +135,18 @@ std::uint32_t FreeSpace::merge(const Gaussian<4>& component, int octave) {
 }
 
 Mixture<4> FreeSpace::coarsened(int times) const {
-    CellNumbers numbers;
+    LatticeTable<std::uint32_t> numbers;
     std::vector<Gaussian<4>> merged;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         LatticeCell cell = cells_[i];
         std::int32_t* const axes[3] = {&cell.x, &cell.y, &cell.z};
         for (int t = 0; t < times; ++t) *axes[t % 3] >>= 1;
-        const auto [entry, isNew] =
-            numbers.try_emplace(cell, static_cast<std::uint32_t>(merged.size()));
+        const auto [number, isNew] =
+            numbers.tryEmplace(cell, static_cast<std::uint32_t>(merged.size()));
         if (isNew)
             merged.push_back(mixture_[i]);
         else
-            merged[entry->second] = mergeMoments(merged[entry->second], mixture_[i]);
+            merged[*number] = mergeMoments(merged[*number], mixture_[i]);
     }
     Mixture<4> mixture;
     mixture.reserve(merged.size());
@@ -154,19 +154,22 @@ Mixture<4> FreeSpace::coarsened(int times) const {
     return mixture;
 }
 
+void FreeSpace::reserve(std::size_t n) {
+    mixture_.reserve(n);
+    cells_.reserve(n);
+    componentOf_.reserve(n);
+}
+
 void FreeSpace::pushBack(const Gaussian<4>& component, int octave) {
     const LatticeCell cell = LatticeCell::at(component.mean.head<3>(), octave);
-    componentOf_.try_emplace(cell, static_cast<std::uint32_t>(cells_.size()));
+    componentOf_.tryEmplace(cell, static_cast<std::uint32_t>(cells_.size()));
     cells_.push_back(cell);
     mixture_.pushBack(component);
 }
 
 std::size_t FreeSpace::liveBytes() const {
-    constexpr std::size_t node =
-        sizeof(LatticeCell) + sizeof(std::uint32_t) + 3 * sizeof(void*);
     return mixture_.support.capacity() * sizeof(float) * (1 + 4 + Mixture<4>::packed) +
-           cells_.capacity() * sizeof(LatticeCell) + componentOf_.size() * node +
-           componentOf_.bucket_count() * sizeof(void*);
+           cells_.capacity() * sizeof(LatticeCell) + componentOf_.liveBytes();
 }
 
 }  // namespace hgmm

@@ -59,6 +59,8 @@ void Map::Derived::prepare(const Map& map) {
     if (ready_.load(std::memory_order_acquire)) return;
     const std::lock_guard<std::mutex> lock(mutex_);
     if (ready_.load(std::memory_order_relaxed)) return;
+    index_.reserve(map.model_.surfaces.size());
+    clearance_.reserve(map.model_.surfaces.size());
     for (std::uint32_t i = 0; i < map.model_.surfaces.size(); ++i) enterSurface(map, i);
     logTotal_ = std::log(map.model_.surfaces.totalSupport());
     levelCount_ = map.levelCount();

@@ -162,6 +162,7 @@ std::vector<int> octavesOf(const FreeSpace& space) {
 
 FreeSpace freeSpaceFrom(const Mixture<4>& mixture, const std::vector<int>& octaves) {
     FreeSpace space;
+    space.reserve(mixture.size());
     for (std::size_t i = 0; i < mixture.size(); ++i) {
         if (std::abs(octaves[i]) > 40)
             throw FormatError("saved map: the octave of a free component is out of range");

@@ -102,12 +102,13 @@ void Mixture<D>::check() const {
             if (!std::isfinite(v))
                 throw std::logic_error("Mixture: a parameter is not finite");
     });
+    const auto fail = [](std::size_t i, const char* why) {
+        throw std::logic_error("Mixture: component " + std::to_string(i) + why);
+    };
     for (std::size_t i = 0; i < size(); ++i) {
-        const std::string name = "Mixture: component " + std::to_string(i);
-        if (!(support[i] > 0)) throw std::logic_error(name + " has no support");
+        if (!(support[i] > 0)) fail(i, " has no support");
         if (!isPositiveDefinite<D>((*this)[i].covariance))
-            throw std::logic_error(name +
-                                   " has a covariance that is not positive definite");
+            fail(i, " has a covariance that is not positive definite");
     }
 }
 

@@ -1,5 +1,6 @@
 #include "hgmm/surface_likelihood.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,23 +9,110 @@
 
 namespace hgmm {
 
+namespace {
+
+/// Thinner patches would not be finite in floats [m^2].
+constexpr double kMinVariance_m2 = 1e-12;
+
+/// Where (1 - outlierRatio) exp(-1/2 reach^2) is a fiftieth of outlierRatio.
+double reachOf(double outlierRatio) {
+    return std::sqrt(2 * std::log(1 + 50 * (1 - outlierRatio) / outlierRatio));
+}
+
+}  // namespace
+
 SurfaceLikelihood::SurfaceLikelihood(const Mixture<3>& mixture, double softeningStd_m,
                                      double outlierRatio)
-    : index_(ComponentIndex::kSigmas, static_cast<float>(softeningStd_m)),
-      outlierRatio_(outlierRatio) {
+    : softeningVariance_m2_(softeningStd_m * softeningStd_m), outlierRatio_(outlierRatio) {
     requireInRange("softeningStd_m", softeningStd_m, 0.0, 1e3);
     requireInRange("outlierRatio", outlierRatio, 1e-9, 1.0 - 1e-9);
-    index_.rebuild(mixture);
+    reach_ = static_cast<float>(reachOf(outlierRatio));
+    update(mixture);
+}
+
+void SurfaceLikelihood::update(const Mixture<3>& mixture) {
+    const auto n = static_cast<std::uint32_t>(mixture.size());
+    while (patches_.size() > n) {
+        boxes_.removeSwap(static_cast<std::uint32_t>(patches_.size() - 1));
+        patches_.pop_back();
+        moments_.pop_back();
+    }
+    boxes_.reserve(n);
+    patches_.reserve(n);
+    moments_.reserve(n);
+    for (std::uint32_t i = 0; i < n; ++i)
+        if (i >= patches_.size() || moments_[i] != momentsOf(mixture, i)) enter(mixture, i);
+}
+
+auto SurfaceLikelihood::momentsOf(const Mixture<3>& mixture, std::size_t i) -> Moments {
+    Moments moments{};
+    for (int d = 0; d < 3; ++d) moments[d] = mixture.mean[d][i];
+    for (int k = 0; k < Mixture<3>::packed; ++k) moments[3 + k] = mixture.covariance[k][i];
+    return moments;
+}
+
+void SurfaceLikelihood::enter(const Mixture<3>& mixture, std::uint32_t i) {
+    const Gaussian<3> g = mixture[i];
+    const Eigen::Matrix3d covariance = g.covariance;
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+    solver.computeDirect(covariance);
+    const double s = std::sqrt(
+        std::max(solver.eigenvalues()[0] + softeningVariance_m2_, kMinVariance_m2));
+    Patch patch;
+    BoxIndex::Box box;
+    Eigen::Vector3d half = Eigen::Vector3d::Constant(reach_ * s);
+    for (int a = 0; a < 3; ++a) {
+        const Eigen::Vector3d axis = solver.eigenvectors().col(a);
+        for (int d = 0; d < 3; ++d) patch.axes[a][d] = static_cast<float>(axis[d] / s);
+        if (a == 0) continue;
+        const double edge = std::sqrt(3 * std::max(0.0, solver.eigenvalues()[a]));
+        patch.halfEdge[a - 1] = static_cast<float>(edge / s);
+        half += edge * axis.cwiseAbs();
+    }
+    for (int d = 0; d < 3; ++d) {
+        patch.mean[d] = box.centre[d] = static_cast<float>(g.mean[d]);
+        box.halfExtent[d] = static_cast<float>(half[d]);
+    }
+    if (i == patches_.size()) {
+        patches_.push_back(patch);
+        moments_.push_back(momentsOf(mixture, i));
+    } else {
+        patches_[i] = patch;
+        moments_[i] = momentsOf(mixture, i);
+    }
+    boxes_.update(i, box);
+}
+
+inline float SurfaceLikelihood::squaredDistance(const Patch& patch, float x, float y,
+                                                float z) {
+    const float dx = x - patch.mean[0], dy = y - patch.mean[1], dz = z - patch.mean[2];
+    const auto along = [&](const std::array<float, 3>& axis) {
+        return axis[0] * dx + axis[1] * dy + axis[2] * dz;
+    };
+    const float normal = along(patch.axes[0]);
+    const float beyond1 = std::max(0.F, std::abs(along(patch.axes[1])) - patch.halfEdge[0]);
+    const float beyond2 = std::max(0.F, std::abs(along(patch.axes[2])) - patch.halfEdge[1]);
+    return normal * normal + beyond1 * beyond1 + beyond2 * beyond2;
+}
+
+double SurfaceLikelihood::probability(float x, float y, float z) const {
+    if (patches_.empty()) return outlierRatio_;
+    float nearest = std::numeric_limits<float>::infinity();
+    boxes_.visitCandidates(x, y, z, [&](std::uint32_t j) {
+        nearest = std::min(nearest, squaredDistance(patches_[j], x, y, z));
+    });
+    // The reach itself, not that of the boxes: where cells begin must not matter.
+    if (!(nearest <= reach_ * reach_)) return outlierRatio_;
+    return outlierRatio_ + (1.0 - outlierRatio_) * double(std::exp(-0.5F * nearest));
 }
 
 double SurfaceLikelihood::operator()(float x, float y, float z) const {
-    const float point[3] = {x, y, z};
-    float nearest = std::numeric_limits<float>::infinity();
-    index_.visitCandidates(x, y, z, [&](std::uint32_t j) {
-        nearest = std::min(nearest, index_.factor(j).squaredMahalanobis(point));
-    });
-    return std::log(outlierRatio_ +
-                    (1.0 - outlierRatio_) * std::exp(-0.5 * double(nearest)));
+    return std::log(probability(x, y, z));
+}
+
+std::size_t SurfaceLikelihood::liveBytes() const {
+    return patches_.capacity() * sizeof(Patch) + moments_.capacity() * sizeof(Moments) +
+           boxes_.liveBytes();
 }
 
 }  // namespace hgmm

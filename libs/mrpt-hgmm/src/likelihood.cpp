@@ -25,13 +25,30 @@ std::vector<std::size_t> spreadIndices(std::size_t n, std::size_t count) {
     return indices;
 }
 
+/// Sum of logarithms, of which few are taken.
+class LogOfProduct {
+ public:
+    /// @param factor in [1e-9, 1]
+    void multiply(double factor) {
+        product_ *= factor;
+        if (product_ < 1e-280) {
+            log_ += std::log(product_);
+            product_ = 1;
+        }
+    }
+    double log() const { return log_ + std::log(product_); }
+
+ private:
+    double product_ = 1, log_ = 0;
+};
+
 }  // namespace
 
 ObservationLikelihood& ObservationLikelihood::operator=(const ObservationLikelihood& o) {
     if (this == &o) return *this;
-    auto surfaces = o.currentSurfaces();
-    const std::lock_guard<std::mutex> lock(mutex_);
-    surfaces_ = std::move(surfaces);
+    const std::scoped_lock lock(mutex_, o.mutex_);
+    surfaces_ = o.surfaces_;
+    stale_ = o.stale_;
     entries_.clear();
     next_ = 0;
     return *this;
@@ -47,17 +64,17 @@ double ObservationLikelihood::operator()(const Map& map, const LikelihoodParams&
 
     const Pose T = toPose(T_map_robot);
     const Eigen::Vector3d t_local = T.t - map.origin();
-    double sum = 0;
+    LogOfProduct product;
     for (const Eigen::Vector3d& p : *points) {
         const Eigen::Vector3f local = (T.R * p + t_local).cast<float>();
-        sum += surfaces->likelihood(local.x(), local.y(), local.z());
+        product.multiply(surfaces->likelihood.probability(local.x(), local.y(), local.z()));
     }
-    return sum;
+    return product.log();
 }
 
 void ObservationLikelihood::invalidate() {
     const std::lock_guard<std::mutex> lock(mutex_);
-    surfaces_.reset();
+    stale_ = true;
 }
 
 void ObservationLikelihood::forgetObservations() {
@@ -66,21 +83,19 @@ void ObservationLikelihood::forgetObservations() {
     next_ = 0;
 }
 
-std::shared_ptr<const ObservationLikelihood::Surfaces>
-ObservationLikelihood::currentSurfaces() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return surfaces_;
-}
-
 std::shared_ptr<const ObservationLikelihood::Surfaces> ObservationLikelihood::surfacesOf(
     const Map& map, const LikelihoodParams& params) const {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!surfaces_ || surfaces_->softening_m != params.softening_m ||
         surfaces_->outlierRatio != params.outlierRatio) {
-        surfaces_ = std::make_shared<const Surfaces>(Surfaces{
+        surfaces_ = std::make_shared<Surfaces>(Surfaces{
             SurfaceLikelihood(map.mixture(), params.softening_m, params.outlierRatio),
             params.softening_m, params.outlierRatio});
+    } else if (stale_) {
+        if (surfaces_.use_count() > 1) surfaces_ = std::make_shared<Surfaces>(*surfaces_);
+        surfaces_->likelihood.update(map.mixture());
     }
+    stale_ = false;
     return surfaces_;
 }
 

@@ -21,11 +21,11 @@ class Digest {
         hash_ = (hash_ ^ word) * 0x9E3779B97F4A7C15ULL;
         hash_ ^= hash_ >> 32U;
     }
-    /// Adds at most kSample values of value(0) .. value(n - 1), and n.
+    /// Adds at most `most` of value(0) .. value(n - 1), and n.
     template <typename Value>
-    void addSpread(std::size_t n, Value&& value) {
+    void addSpread(std::size_t n, Value&& value, std::size_t most = 1024) {
         add(n);
-        const std::size_t step = n / kSample + 1;
+        const std::size_t step = n / most + 1;
         for (std::size_t i = 0; i < n; i += step) add(value(i));
     }
     void add(const mrpt::poses::CPose3D& pose) {
@@ -34,7 +34,6 @@ class Digest {
     std::uint64_t value() const { return hash_; }
 
  private:
-    static constexpr std::size_t kSample = 1024;
     std::uint64_t hash_ = 0xCBF29CE484222325ULL;
 };
 
@@ -49,10 +48,11 @@ void addData(Digest& digest, const CObservation2DRangeScan& o) {
     digest.add(o.aperture);
     digest.add(o.rightToLeft);
     digest.add(o.deltaPitch);
-    for (std::size_t i = 0; i < o.getScanSize(); ++i) {
-        digest.add(o.getScanRange(i));
-        digest.add(o.getScanRangeValidity(i));
-    }
+    // Asked for by every particle: a digest of all rays would cost as much as the rest.
+    digest.addSpread(
+        o.getScanSize(),
+        [&](std::size_t i) { return o.getScanRangeValidity(i) ? o.getScanRange(i) : -1.F; },
+        128);
 }
 
 void addData(Digest& digest, const CObservation3DRangeScan& o) {

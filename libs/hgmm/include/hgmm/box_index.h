@@ -28,6 +28,8 @@ class BoxIndex {
     /// Box i goes; the last one takes its number.
     void removeSwap(std::uint32_t i);
     void clear();
+    /// Makes room for n boxes in all.
+    void reserve(std::size_t n);
     std::size_t size() const { return placements_.size(); }
 
     /// Calls visit(i) for each box in whose cells (x, y, z) lies, each once, in a fixed
@@ -100,7 +102,7 @@ class BoxIndex {
     static void forEachCell(const Placement& p, Visitor&& visit);
     const Slot* find(std::uint64_t key) const;
     Slot& findOrAdd(std::uint64_t key);
-    void growTable();
+    void growTable(std::size_t slots);
     std::uint32_t allocate(std::uint8_t capacityLog2);
     void add(std::uint64_t key, std::uint32_t i);
     void remove(std::uint64_t key, std::uint32_t i);

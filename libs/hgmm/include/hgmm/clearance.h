@@ -2,10 +2,9 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
-#include "hgmm/lattice.h"
+#include "hgmm/lattice_table.h"
 
 namespace hgmm {
 
@@ -20,6 +19,8 @@ class Clearance {
     /// Follows Mixture::removeSwap(i).
     void removeSwap(std::uint32_t i);
     std::size_t size() const { return means_.size(); }
+    /// Makes room for n components in all.
+    void reserve(std::size_t n);
 
     /// Whether the cell or one across a face of it holds a surface. Octaves are clamped to
     /// the ones kept.
@@ -31,9 +32,10 @@ class Clearance {
     using Mean = Eigen::Matrix<float, 3, 1, Eigen::DontAlign>;
 
     void count(const LatticeCell& cell, int change);
+    bool holds(const LatticeCell& cell) const { return components_.find(cell) != nullptr; }
 
     std::vector<Mean> means_;
-    std::unordered_map<LatticeCell, std::uint32_t, LatticeCellHash> components_;
+    LatticeTable<std::uint32_t> components_;
 };
 
 }  // namespace hgmm

@@ -30,6 +30,8 @@ class ComponentIndex {
     /// Follows Mixture::removeSwap(i).
     void removeSwap(std::uint32_t i);
     void clear();
+    /// Makes room for n components in all.
+    void reserve(std::size_t n);
 
     std::size_t size() const { return factors_.size(); }
     const Factor& factor(std::uint32_t i) const { return factors_[i]; }

@@ -1,10 +1,10 @@
 #pragma once
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 #include "hgmm/band.h"
 #include "hgmm/clearance.h"
+#include "hgmm/lattice_table.h"
 #include "hgmm/mixture.h"
 
 namespace hgmm {
@@ -60,6 +60,8 @@ class FreeSpace {
     /// along the next axis.
     Mixture<4> coarsened(int times) const;
 
+    /// Makes room for n components in all.
+    void reserve(std::size_t n);
     /// For loading. Cells are found again from the means.
     void pushBack(const Gaussian<4>& component, int octave);
 
@@ -69,11 +71,9 @@ class FreeSpace {
     }
 
  private:
-    using CellNumbers = std::unordered_map<LatticeCell, std::uint32_t, LatticeCellHash>;
-
     Mixture<4> mixture_;
     std::vector<LatticeCell> cells_;
-    CellNumbers componentOf_;
+    LatticeTable<std::uint32_t> componentOf_;
 };
 
 }  // namespace hgmm

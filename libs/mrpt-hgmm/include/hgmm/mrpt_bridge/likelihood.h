@@ -30,16 +30,15 @@ struct LikelihoodParams {
 /// Likelihood of observations given a pose, for particle filters: sums SurfaceLikelihood
 /// over a spread subset of the scan's points, which are independent given the pose.
 ///
-/// Keeps what calls have in common: the widened surfaces, until invalidate(), and the
-/// points of the last few observations. An observation is recognised by address, time
-/// stamp, sensor pose and a digest of its data, so that one that takes the place of another
-/// is not mistaken for it. Memory is bounded; const calls may come from several threads.
-/// Copies share the surfaces.
+/// Keeps what calls have in common: the map's surfaces, brought up to date where the map
+/// changed since invalidate(), and the points of the last few observations. An observation
+/// is recognised by address, time stamp, sensor pose and a digest of its data, so that one
+/// that takes the place of another is not mistaken for it. Memory is bounded; const calls
+/// may come from several threads. Copies share the surfaces.
 class ObservationLikelihood {
  public:
     ObservationLikelihood() = default;
-    ObservationLikelihood(const ObservationLikelihood& o)
-        : surfaces_(o.currentSurfaces()) {}
+    ObservationLikelihood(const ObservationLikelihood& o) { *this = o; }
     ObservationLikelihood& operator=(const ObservationLikelihood& o);
 
     /// Log-likelihood [nat], finite, <= 0, and 0 for an empty map and for observations of
@@ -70,15 +69,15 @@ class ObservationLikelihood {
     };
     static constexpr std::size_t kMaxEntries = 4;
 
-    std::shared_ptr<const Surfaces> currentSurfaces() const;
     std::shared_ptr<const Surfaces> surfacesOf(const Map& map,
                                                const LikelihoodParams& params) const;
     std::shared_ptr<const Points> pointsOf(const mrpt::obs::CObservation& observation,
                                            const LikelihoodParams& params) const;
 
     mutable std::mutex mutex_;
-    mutable std::shared_ptr<const Surfaces> surfaces_;
-    mutable std::vector<Entry> entries_;  // the oldest is at next_
+    mutable std::shared_ptr<Surfaces> surfaces_;  // changed while nobody else holds them
+    mutable bool stale_ = false;                  // the map has changed since
+    mutable std::vector<Entry> entries_;          // the oldest is at next_
     mutable std::size_t next_ = 0;
 };
 
