@@ -9,6 +9,7 @@
 #include "incremental_study.h"
 #include "landscape_study.h"
 #include "map_setup.h"
+#include "registration_study.h"
 #include "regression_study.h"
 #include "room_study.h"
 #include "voxel_study.h"
@@ -95,6 +96,11 @@ std::vector<Study> makeStudies() {
          "climbing leads there",
          Needs::testScans,
          landscapeStudy,
+         {}},
+        {"registration",
+         "pairs of scans aligned from guesses that are 0.5 m and 10 deg off",
+         Needs::posedScans,
+         once(registrationStudy),
          {}}};
 }
 
