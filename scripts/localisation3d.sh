@@ -1,44 +1,63 @@
 #!/usr/bin/env bash
 # Localises a handheld 3D lidar in all six dimensions with stock pf-localization: the map holds
 # four of five scans of livox_building, the others are localised in it, with noisy 3D odometry,
-# from a start spread of +-2 m, +-10 deg.
-#   HGMM_DATA_DIR=../shared/data scripts/localisation3d.sh [RUNS]        default: 5 runs
-# A run succeeds if, after the first 20 updates, its median error is below 0.3 m and 2 deg.
-# Needs a build. Everything it makes is in build/localisation3d.
+# from a start spread of +-2 m, +-10 deg, 1000 particles: in our map, and in MRPT's points map.
+#   HGMM_DATA_DIR=../shared/data scripts/localisation3d.sh [RUNS [MAP...]]
+# Default: 5 runs of hgmm and points. A run succeeds if, after the first 20 updates, its median
+# error is below 0.3 m and 2 deg. Needs a build. Everything it makes is in build/localisation3d.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 : "${HGMM_DATA_DIR:?names no folder of recordings}"
 data=$(cd "$HGMM_DATA_DIR" && pwd)/livox_building
 runs=${1:-5}
+maps=("${@:2}")
+[[ ${#maps[@]} -gt 0 ]] || maps=(hgmm points)
 out=$PWD/build/localisation3d
 config=$PWD/share/mrpt-hgmm/config_files/pf-localization-3d.ini
 sensor=0.0417,0.0233,-0.0284,0,0,0
 PATH=$PWD/build/bin:$PATH
 rm -rf "$out"
-mkdir -p "$out/test"
+mkdir -p "$out/test" "$out/mapping"
 
-hgmm-import pcd "$data/scans" --poses "$data/poses_tum.txt" --sensor-pose $sensor \
-    -o "$out/all.rawlog" --poses-out "$out/all.tum" >/dev/null
-hgmm-replay "$out/all.rawlog" --poses "$out/all.tum" --split 5 --quiet \
-    --save-map "$out/map.hgmm" >"$out/map.log"
-# The scans that --split 5 leaves out.
+# Every fifth scan, from the third on, is localised.
 number=0
 for scan in "$data"/scans/*.pcd; do
-    if ((number % 5 == 2)); then ln -s "$scan" "$out/test/"; fi
+    if ((number % 5 == 2)); then ln -s "$scan" "$out/test/"; else ln -s "$scan" "$out/mapping/"; fi
     number=$((number + 1))
 done
 grep -v '^#' "$data/poses_tum.txt" | awk '(NR - 1) % 5 == 2' >"$out/test.tum"
-sed 's|= mylog.rawlog|= test.rawlog|; s|= mymap.hgmm|= ../map.hgmm|' "$config" >"$out/config.ini"
+grep -v '^#' "$data/poses_tum.txt" | awk '(NR - 1) % 5 != 2' >"$out/mapping.tum"
+hgmm-import pcd "$out/mapping" --poses "$out/mapping.tum" --sensor-pose $sensor \
+    -o "$out/mapping.rawlog" --poses-out "$out/mapping.out.tum" \
+    --cloud "$out/points.simplemap" >/dev/null
+hgmm-replay "$out/mapping.rawlog" --poses "$out/mapping.out.tum" --quiet \
+    --save-map "$out/map.hgmm" >"$out/map.log"
 
-localise() { # RUN
-    mkdir "$out/$1"
-    cd "$out/$1"
+# Everything but the map is the same.
+sed 's|= mylog.rawlog|= test.rawlog|; s|= mymap.hgmm|= ../map.hgmm|' "$config" >"$out/hgmm.ini"
+sed '/^\[MetricMap\]/,$d; s|= mylog.rawlog|= test.rawlog|; s|^map_file .*|map_file = ../points.simplemap|' \
+    "$config" >"$out/points.ini"
+cat >>"$out/points.ini" <<'INI'
+[MetricMap]
+pointsMap_count = 1
+likelihoodMapSelection = -1
+[MetricMap_pointsMap_00_insertOpts]
+minDistBetweenLaserPoints = 0
+[MetricMap_pointsMap_00_likelihoodOpts]
+sigma_dist = 0.01
+max_corr_distance = 1
+decimation = 50
+INI
+
+localise() { # MAP RUN
+    mkdir "$out/$1-$2"
+    cd "$out/$1-$2"
     hgmm-import pcd ../test --poses ../test.tum --sensor-pose "$sensor" --actions \
-        --odometry-noise 0.05,1 --seed "$1" -o test.rawlog --poses-out truth.tum >/dev/null
+        --odometry-noise 0.05,1 --seed "$2" -o test.rawlog --poses-out truth.tum >/dev/null
     local start end
     start=$(date +%s.%N)
     LD_PRELOAD=$out/../lib/libmrpt-hgmm.so OMP_NUM_THREADS=1 \
-        pf-localization ../config.ini </dev/null >log 2>&1 || { echo "$1 failed"; return; }
+        pf-localization "../$1.ini" </dev/null >log 2>&1 || { echo "$1 failed"; return; }
     end=$(date +%s.%N)
     grep 'PDF estimation' log | sed -E 's/.*=\(([^)]*)\).*/\1/; s/deg//g; s/,/ /g' >estimates
     # Error of position, and angle between the two orientations.
@@ -58,11 +77,21 @@ localise() { # RUN
     local metres degrees
     metres=$(tail -n +21 errors | awk '{ print $1 }' | sort -g | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }')
     degrees=$(tail -n +21 errors | awk '{ print $2 }' | sort -g | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }')
-    awk -v run="$1" -v m="$metres" -v d="$degrees" -v n="$(wc -l <errors)" -v s="$end" -v b="$start" \
-        'BEGIN { printf("| %d | %s | %.3f | %.2f | %.2f |\n", run, (m < 0.3 && d < 2 ? "yes" : "no"), m, d, (s - b) / n) }'
+    echo "$1 $metres $degrees $start $end $(wc -l <errors)" |
+        awk '{ printf("%s %.3f %.2f %.3f\n", $1, $2, $3, ($5 - $4) / $6) }'
 }
 export -f localise
 export out sensor PATH
-echo '| run | success | median error [m] | median error [deg] | seconds per update, 1000 particles |'
-echo '| --- | --- | --- | --- | --- |'
-seq "$runs" | xargs -P "$(nproc)" -I{} bash -c 'localise {}' | sort
+for map in "${maps[@]}"; do
+    for run in $(seq "$runs"); do echo "$map $run"; done
+done | xargs -P "$(nproc)" -L 1 bash -c 'localise $0 $1' >"$out/runs.txt"
+
+# The middle of a column of numbers, the lower one of two.
+median() { sort -g | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }'; }
+echo '| map | runs | within 0.3 m, 2 deg | median error [m] | [deg] | seconds per update |'
+echo '| --- | --- | --- | --- | --- | --- |'
+for map in "${maps[@]}"; do
+    of() { awk -v map="$map" -v column="$1" '$1 == map && NF == 4 { print $column }' "$out/runs.txt"; }
+    good=$(awk -v map="$map" '$1 == map && NF == 4 && $2 < 0.3 && $3 < 2' "$out/runs.txt" | wc -l)
+    echo "| $map | $runs | $good | $(of 2 | median) | $(of 3 | median) | $(of 4 | median) |"
+done

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <iostream>
@@ -9,6 +10,7 @@
 #include "sources/kitti.h"
 #include "sources/pcd.h"
 #include "sources/seven_scenes.h"
+#include "sources/simplemap.h"
 #include "sources/tum.h"
 
 namespace {
@@ -64,7 +66,8 @@ void addIntrinsics(CLI::App& command, Arguments& arguments, const std::string& o
 
 void addOutputs(CLI::App& command, Arguments& arguments) {
     auto& outputs = arguments.outputs;
-    command.add_option("input", arguments.input, "Folder of the recording")->required();
+    command.add_option("input", arguments.input, "Folder or file of the recording")
+        ->required();
     command
         .add_option("-o,--output", outputs.rawlog,
                     "Rawlog to write; needs no files besides it")
@@ -84,6 +87,11 @@ void addOutputs(CLI::App& command, Arguments& arguments) {
         .add_option(
             "--simplemap", outputs.simplemap,
             "Also write poses and scans as an MRPT simple map (held in memory meanwhile)")
+        ->type_name("FILE.simplemap");
+    command
+        .add_option("--cloud", outputs.cloud,
+                    "Also write all points as one cloud, in the world frame, for MRPT's "
+                    "points maps, which ignore robot poses of point clouds")
         ->type_name("FILE.simplemap");
     auto* actions = command.add_flag(
         "--actions", outputs.actions,
@@ -106,9 +114,11 @@ void addOutputs(CLI::App& command, Arguments& arguments) {
 
 /// Throws CLI::ValidationError if two outputs would overwrite each other.
 void requireDistinct(const RecordingOutputs& outputs) {
-    if (outputs.rawlog == outputs.poses || outputs.rawlog == outputs.simplemap ||
-        outputs.poses == outputs.simplemap)
-        throw CLI::ValidationError("output", "two outputs have the same name");
+    const std::vector<std::string> names{outputs.rawlog, outputs.poses, outputs.simplemap,
+                                         outputs.cloud};
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (!names[i].empty() && std::count(names.begin(), names.end(), names[i]) > 1)
+            throw CLI::ValidationError("output", "two outputs have the same name");
 }
 
 using MakeSource = std::function<std::unique_ptr<Source>()>;
@@ -197,6 +207,15 @@ MakeSource addPcd(CLI::App& app, Arguments& arguments) {
     };
 }
 
+MakeSource addSimpleMap(CLI::App& app, Arguments& arguments) {
+    auto* command = app.add_subcommand(
+        "simplemap",
+        "Simple map of MRPT (.simplemap, .simplemap.gz): its scans, and the means of their "
+        "poses");
+    addOutputs(*command, arguments);
+    return [&] { return std::make_unique<SimpleMapSource>(arguments.input); };
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -210,7 +229,8 @@ int main(int argc, char** argv) {
         {"tum", addTum(app, arguments)},
         {"7scenes", addSevenScenes(app, arguments)},
         {"kitti", addKitti(app, arguments)},
-        {"pcd", addPcd(app, arguments)}};
+        {"pcd", addPcd(app, arguments)},
+        {"simplemap", addSimpleMap(app, arguments)}};
     try {
         app.parse(argc, argv);
         requireDistinct(arguments.outputs);

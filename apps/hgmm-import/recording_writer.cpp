@@ -2,6 +2,7 @@
 
 #include <mrpt/core/Clock.h>
 #include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/serialization/CArchive.h>
@@ -10,6 +11,7 @@
 #include <fstream>
 
 #include "files.h"
+#include "hgmm/mrpt_bridge/observation_to_scan.h"
 #include "mrpt_pose.h"
 
 namespace hgmm::importer {
@@ -27,6 +29,25 @@ bool gzipHolds(const std::string& file, std::uint64_t length) {
     std::uint32_t stored = 0;
     for (int i = 0; i < 4; ++i) stored |= std::uint32_t{tail[i]} << (8 * i);
     return in && stored == static_cast<std::uint32_t>(length);
+}
+
+void save(const mrpt::maps::CSimpleMap& map, const std::string& name) {
+    OutputFile file(name);
+    if (!map.saveToFile(file.temporaryPath()))
+        failFile(name, "cannot be written; check folder and room on the disk");
+    file.commit();
+}
+
+mrpt::maps::CSimpleMap ofOneCloud(const mrpt::maps::CSimplePointsMap::Ptr& cloud) {
+    cloud->mark_as_modified();
+    auto observation = mrpt::obs::CObservationPointCloud::Create();
+    observation->pointcloud = cloud;
+    mrpt::obs::CSensoryFrame frame;
+    frame.insert(observation);
+    mrpt::maps::CSimpleMap map;
+    mrpt::poses::CPose3DPDFGaussian origin;
+    map.insert(origin, frame);
+    return map;
 }
 
 }  // namespace
@@ -56,9 +77,23 @@ void RecordingWriter::add(const ImportedScan& scan) {
         failFile(outputs_.rawlog, "cannot be written; check that the disk has room");
     }
     trajectory_.push_back({stamp, scan.T_world_robot});
+    if (!outputs_.cloud.empty()) addToCloud(scan);
     if (outputs_.simplemap.empty()) return;
     mrpt::poses::CPose3DPDFGaussian pose(toMrpt(scan.T_world_robot));
     simplemap_.insert(pose, *frame);
+}
+
+void RecordingWriter::addToCloud(const ImportedScan& scan) {
+    const auto points =
+        mrpt_bridge::observationToScan(*scan.observation, toMrpt(scan.T_world_robot));
+    if (!points) return;
+    const Pose& T = points->T_map_sensor;
+    for (std::size_t i = 0; i < points->size(); ++i) {
+        const Eigen::Vector3f p =
+            (T.R * Eigen::Vector3d(points->x[i], points->y[i], points->z[i]) + T.t)
+                .cast<float>();
+        cloud_->insertPointFast(p.x(), p.y(), p.z());
+    }
 }
 
 void RecordingWriter::writeActionPair(const ImportedScan& scan,
@@ -83,13 +118,8 @@ void RecordingWriter::commit() {
     if (!gzipHolds(rawlogFile_.temporaryPath(), length))
         failFile(outputs_.rawlog,
                  "could not be written whole; check that the disk has room");
-    if (!outputs_.simplemap.empty()) {
-        OutputFile file(outputs_.simplemap);
-        if (!simplemap_.saveToFile(file.temporaryPath()))
-            failFile(outputs_.simplemap,
-                     "cannot be written; check folder and room on the disk");
-        file.commit();
-    }
+    if (!outputs_.simplemap.empty()) save(simplemap_, outputs_.simplemap);
+    if (!outputs_.cloud.empty()) save(ofOneCloud(cloud_), outputs_.cloud);
     evaluation::writeTumTrajectory(outputs_.poses, trajectory_);
     rawlogFile_.commit();
 }

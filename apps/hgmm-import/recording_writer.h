@@ -2,6 +2,7 @@
 #include <hgmm/evaluation/trajectory.h>
 #include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/maps/CSimplePointsMap.h>
 
 #include <cstdint>
 #include <memory>
@@ -20,13 +21,18 @@ struct RecordingOutputs {
     std::string rawlog;     ///< gzip-compressed MRPT rawlog
     std::string poses;      ///< TUM lines: T_world_robot at the observations' time stamps
     std::string simplemap;  ///< MRPT simple map of the same; empty: none
-    bool actions = false;   ///< pairs of movement and sensory frame instead of observations
-    OdometryNoise noise;    ///< of these movements
+    /// Simple map of one cloud, at the origin, of all points in the world frame, for MRPT's
+    /// points maps: those of 2.5 lose the robot's pose when they insert a point cloud.
+    /// Empty: none.
+    std::string cloud;
+    bool actions = false;  ///< pairs of movement and sensory frame instead of observations
+    OdometryNoise noise;   ///< of these movements
     std::uint64_t seed = 1;
 };
 
 /// Writes scans, in the order of time, to a rawlog, a pose file and, if asked for, a simple
-/// map (which is held in memory until commit). The rawlog needs no files besides it.
+/// map or cloud (which are held in memory until commit). The rawlog needs no files besides
+/// it.
 class RecordingWriter {
  public:
     /// Throws std::runtime_error if the rawlog cannot be opened.
@@ -42,6 +48,7 @@ class RecordingWriter {
     void commit();
 
  private:
+    void addToCloud(const ImportedScan& scan);
     void writeActionPair(const ImportedScan& scan,
                          const mrpt::obs::CSensoryFrame::Ptr& frame);
 
@@ -50,6 +57,7 @@ class RecordingWriter {
     mrpt::io::CFileGZOutputStream rawlog_;
     evaluation::Trajectory trajectory_;
     mrpt::maps::CSimpleMap simplemap_;
+    mrpt::maps::CSimplePointsMap::Ptr cloud_ = mrpt::maps::CSimplePointsMap::Create();
     std::mt19937_64 generator_;
 };
 

@@ -7,8 +7,10 @@
 #include "format.h"
 #include "free_space_study.h"
 #include "incremental_study.h"
+#include "landscape_study.h"
 #include "map_setup.h"
 #include "modality_study.h"
+#include "registration_study.h"
 #include "regression_study.h"
 #include "room_study.h"
 #include "voxel_study.h"
@@ -95,6 +97,17 @@ std::vector<Study> makeStudies() {
          "shares of right answers in a noiseless box room; add noise with --range-noise S",
          Needs::testScans,
          roomStudy,
+         {}},
+        {"landscape",
+         "whether the likelihood of test scans has its maximum at their poses, and hill "
+         "climbing leads there",
+         Needs::testScans,
+         landscapeStudy,
+         {}},
+        {"registration",
+         "pairs of scans aligned from guesses that are 0.5 m and 10 deg off",
+         Needs::posedScans,
+         once(registrationStudy),
          {}}};
 }
 

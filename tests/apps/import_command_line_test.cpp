@@ -24,13 +24,13 @@ class ImportCommandLine : public import_test::ImportTest {
 TEST_F(ImportCommandLine, HelpNamesAllOptions) {
     const auto general = run("--help");
     EXPECT_EQ(general.exitCode, 0);
-    for (const char* format : {"tum", "7scenes", "kitti", "pcd"})
+    for (const char* format : {"tum", "7scenes", "kitti", "pcd", "simplemap"})
         EXPECT_NE(general.out.find(format), std::string::npos) << format;
     const auto pcd = run("pcd --help");
     EXPECT_EQ(pcd.exitCode, 0);
     for (const char* option :
-         {"--poses", "--sensor-pose", "--world-frame", "--simplemap", "--actions",
-          "--odometry-noise", "--seed", "--step", "--poses-out"})
+         {"--poses", "--sensor-pose", "--world-frame", "--simplemap", "--cloud",
+          "--actions", "--odometry-noise", "--seed", "--step", "--poses-out"})
         EXPECT_NE(pcd.out.find(option), std::string::npos) << option;
 }
 

@@ -50,8 +50,9 @@ TEST(Likelihood, SensorPoseIsComposedWithTheRobots) {
 TEST(Likelihood, IsFiniteEverywhere) {
     const CHGMMOccupancyMap map = roomMap();
     const auto scan = observations::laser();
-    const double floor =
-        map.likelihoodOptions.maxPoints * std::log(map.likelihoodOptions.outlierRatio);
+    const double floor = double(std::min<std::size_t>(map.likelihoodOptions.maxPoints,
+                                                      scan->getScanSize())) *
+                         std::log(map.likelihoodOptions.outlierRatio);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const CPose3D& pose :
          {CPose3D(1e3, 0, 0, 0, 0, 0), CPose3D(1e12, -1e12, 1e12, 1, 1, 1),

@@ -36,7 +36,8 @@ enum class Draw : std::uint64_t {
     rangeNoise = 7,
     room = 8,
     modality = 9,
-    modalityQueries = 10
+    modalityQueries = 10,
+    startPose = 11
 };
 
 /// The random numbers of one use in one scan.

@@ -18,7 +18,7 @@ struct LikelihoodParams {
     double softening_m = 0.15;  ///< standard deviation added to all surfaces [m], 0 to 10
     double outlierRatio =
         0.05;                  ///< share of points that the map need not explain, in (0, 1)
-    int maxPoints = 60;        ///< points compared, spread over the scan [count], >= 1
+    int maxPoints = 200;       ///< points compared, spread over the scan [count], >= 1
     double minRange_m = 0.1;   ///< nearer points are left out [m], >= 0
     double maxRange_m = 80.0;  ///< farther points are left out [m], > minRange_m
 
