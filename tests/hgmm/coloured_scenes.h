@@ -33,8 +33,10 @@ inline Scan paintedWall(const std::vector<std::pair<std::string, Painting>>& cha
     return scan;
 }
 
+/// Models these channels, finer than by default.
 inline MapParams modelling(const std::vector<std::string>& names) {
     MapParams params;
+    params.modality.modalityUnexplained = 0.02;
     params.modalities = names;
     return params;
 }
