@@ -81,7 +81,7 @@ ChannelMixture ChannelMixture::withChannels(const std::vector<int>& channels) co
 
 void ChannelMixture::check() const {
     places_.check();
-    for (Fits fits : fits_) {
+    for (const Fits& fits : fits_) {
         fits.forEachArray([this](const std::vector<float>& array) {
             if (array.size() != size())
                 throw std::logic_error("ChannelMixture: arrays differ in length");
@@ -100,10 +100,10 @@ std::size_t ChannelMixture::liveBytes() const {
     return places_.support.capacity() * sizeof(float) * (perPlace + perFit * fits_.size());
 }
 
-Mixture<3>& ChannelMixture::placesToLoad(std::size_t size) {
+void ChannelMixture::assignPlaces(Mixture<3> places) {
+    places_ = std::move(places);
     for (Fits& fits : fits_)
-        fits.forEachArray([size](std::vector<float>& array) { array.resize(size); });
-    return places_;
+        fits.forEachArray([this](std::vector<float>& array) { array.resize(size()); });
 }
 
 }  // namespace hgmm

@@ -7,23 +7,51 @@ namespace hgmm {
 
 namespace {
 
-/// ChannelSums of a number of channels known when compiling, for the inner loop.
+/// Sums over the points of a leaf, in floats, four at a time: u = (1, dx, dy, dz), about
+/// the leaf's first point, and l, about its first value, so that floats keep their digits.
 template <int J>
 struct PointSums {
-    std::array<double, ChannelSums::kPlace + ChannelSums::kChannel * J> v{};
+    using Four = Eigen::Array4f;
+
+    std::array<Four, 4> outer = zeros<4>();    ///< u u^T
+    std::array<Four, J> channel = zeros<J>();  ///< l u
+    std::array<float, J> square{};             ///< l^2
+    std::array<float, J> first{};              ///< values that l is about
+
+    float count() const { return outer[0][0]; }
 
     void add(double dx, double dy, double dz, const std::array<const float*, J>& values,
              std::size_t i) {
-        v[0] += 1;
-        v[1] += dx, v[2] += dy, v[3] += dz;
-        v[4] += dx * dx, v[5] += dx * dy, v[6] += dx * dz;
-        v[7] += dy * dy, v[8] += dy * dz, v[9] += dz * dz;
-        double* at = v.data() + ChannelSums::kPlace;
-        for (int c = 0; c < J; ++c, at += ChannelSums::kChannel) {
-            const double l = values[c][i];
-            at[0] += l, at[1] += l * l;
-            at[2] += dx * l, at[3] += dy * l, at[4] += dz * l;
+        if (count() == 0.F)
+            for (int c = 0; c < J; ++c) first[c] = values[c][i];
+        const Four u(1.F, float(dx), float(dy), float(dz));
+        for (int row = 0; row < 4; ++row) outer[row] += u[row] * u;
+        for (int c = 0; c < J; ++c) {
+            const float l = values[c][i] - first[c];
+            channel[c] += l * u;
+            square[c] += l * l;
         }
+    }
+
+    /// The layout of ChannelSums, about the leaf's first point.
+    void write(int channels, double* v) const {
+        for (int row = 0, k = 0; row < 4; ++row)
+            for (int col = row; col < 4; ++col, ++k) v[k] = outer[row][col];
+        v += ChannelSums::kPlace;
+        for (int c = 0; c < channels; ++c, v += ChannelSums::kChannel) {
+            const double f = first[c], n = count();
+            v[0] = channel[c][0] + f * n;
+            v[1] = square[c] + f * (2.0 * channel[c][0] + f * n);
+            for (int d = 0; d < 3; ++d) v[2 + d] = channel[c][1 + d] + f * outer[0][1 + d];
+        }
+    }
+
+ private:
+    template <int N>
+    static std::array<Four, N> zeros() {
+        std::array<Four, N> all;
+        all.fill(Four::Zero());
+        return all;
     }
 };
 
@@ -40,10 +68,15 @@ ChannelSamples filterUpTo(const Scan& scan, const std::vector<const Channel*>& c
         [&values](PointSums<J>& sums, std::size_t i, double dx, double dy, double dz) {
             if (isMeasured(values[0][i])) sums.add(dx, dy, dz, values, i);
         });
-    ChannelSamples samples(static_cast<int>(channels.size()));
-    for (const auto& leaf : table.leaves())
-        if (leaf.sums.v[0] > 0)
-            samples.pushBack(leaf.sums.v.data(), leaf.anchor, filter, noise);
+    const auto count = static_cast<int>(channels.size());
+    ChannelSamples samples(count);
+    samples.reserve(table.leaves().size());
+    std::array<double, ChannelSums::kMax> sums{};
+    for (const auto& leaf : table.leaves()) {
+        if (leaf.sums.count() == 0.F) continue;
+        leaf.sums.write(count, sums.data());
+        samples.pushBack(sums.data(), leaf.anchor, filter, noise);
+    }
     return samples;
 }
 
@@ -65,6 +98,11 @@ ChannelSamples ChannelSamples::withChannels(const std::vector<int>& channels) co
         }
     }
     return some;
+}
+
+void ChannelSamples::reserve(std::size_t n) {
+    sums_.reserve(n * stride());
+    for (auto& axis : mean_) axis.reserve(n);
 }
 
 void ChannelSamples::pushBack(const double* sums, const std::array<float, 3>& anchor,

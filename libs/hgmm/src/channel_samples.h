@@ -24,6 +24,7 @@ class ChannelSamples {
     /// The same with these channels only, in this order.
     ChannelSamples withChannels(const std::vector<int>& channels) const;
 
+    void reserve(std::size_t n);
     /// @param sums of one leaf, about its anchor
     void pushBack(const double* sums, const std::array<float, 3>& anchor,
                   const FilterParams& filter, double channelNoise);
@@ -38,7 +39,7 @@ class ChannelSamples {
 
 /// Whether a value counts as measured: finite and not beyond 1e6.
 inline bool isMeasured(float value) {
-    return value >= -1e6F && value <= 1e6F;
+    return (value >= -1e6F) & (value <= 1e6F);
 }
 
 /// One sample per leaf that holds points where the first of `channels`, and so all, were

@@ -1,8 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 
-#include "hgmm/gaussian.h"
 #include "hgmm/map.h"
 #include "modality_inference.h"
 #include "value_index.h"
@@ -11,73 +10,86 @@ namespace hgmm {
 
 namespace {
 
-/// Candidate places of one prior, by falling weight.
-class CandidatePlaces {
- public:
-    static constexpr std::size_t kMost = 6;
+/// Candidate places of each prior [count]: bounds the cost of a query.
+constexpr std::size_t kPlacesPerPrior = 4;
 
-    void add(double logWeight, const Eigen::Vector3d& place) {
-        if (size_ == kMost && !(logWeight > weights_[kMost - 1])) return;
-        std::size_t at = size_ < kMost ? size_++ : kMost - 1;
-        for (; at > 0 && weights_[at - 1] < logWeight; --at) {
-            weights_[at] = weights_[at - 1];
-            places_[at] = places_[at - 1];
-        }
-        weights_[at] = logWeight;
-        places_[at] = place;
+/// Priors of one group, whose densities at a place are found together.
+struct GroupPriors {
+    const ModalityGroup* group;
+    std::array<ChannelValue, kMaxModalities> values;
+    std::size_t count = 0;
+};
+
+std::vector<GroupPriors> byGroup(const std::vector<Prior>& priors) {
+    std::vector<GroupPriors> groups;
+    for (const Prior& prior : priors) {
+        const ModalityGroup* group = &prior.map->group();
+        auto at = std::find_if(groups.begin(), groups.end(),
+                               [&](const GroupPriors& g) { return g.group == group; });
+        if (at == groups.end()) at = groups.insert(at, {group, {}, 0});
+        if (at->count < kMaxModalities)
+            at->values[at->count++] = {prior.map->channel(), prior.value};
     }
-    std::size_t size() const { return size_; }
-    const Eigen::Vector3d& operator[](std::size_t i) const { return places_[i]; }
+    return groups;
+}
 
- private:
-    std::size_t size_ = 0;
-    std::array<double, kMost> weights_{};
-    std::array<Eigen::Vector3d, kMost> places_;
-};
-
-/// A component seen from its value: thesis eq. (5.9) to (5.11).
-struct GivenValue {
-    double logWeight;                ///< of eq. (5.9), without the common denominator
-    Eigen::Vector3d mean;            ///< eq. (5.10)
-    Gaussian<3>::Matrix covariance;  ///< eq. (5.11)
-};
-
-GivenValue givenValue(const ChannelGaussian& g, int channel, double value) {
-    const Gaussian<4> joint = g.joint(channel);
-    const double variance = joint.covariance(3, 3), d = value - joint.mean[3];
+/// Thesis eq. (5.10).
+Eigen::Vector3d placeOf(const ChannelGaussian& g, const ChannelValue& value) {
+    const Gaussian<4> joint = g.joint(value.channel);
     const Eigen::Vector3d cross = joint.covariance.topRightCorner<3, 1>();
-    GivenValue out;
-    out.logWeight = std::log(joint.support) - 0.5 * (std::log(variance) + d * d / variance);
-    out.mean = joint.mean.head<3>() + cross * (d / variance);
-    out.covariance =
-        joint.covariance.topLeftCorner<3, 3>() - cross * cross.transpose() / variance;
-    return out;
+    return joint.mean.head<3>() +
+           cross * ((value.value - joint.mean[3]) / joint.covariance(3, 3));
 }
 
-void candidatesNear(const ModalityMap& prior, double value, const Eigen::Vector3d& point,
-                    CandidatePlaces& places) {
-    const ModalityGroup& group = prior.group();
-    const Eigen::Vector3f p = point.cast<float>();
-    group.index().visitCandidates(p.x(), p.y(), p.z(), [&](std::uint32_t j) {
-        constexpr float kSigmas = ComponentIndex::kSigmas;
-        if (!(group.index().factor(j).squaredMahalanobis(p.data()) <= kSigmas * kSigmas))
-            return;
-        const GivenValue given = givenValue(group.mixture()[j], prior.channel(), value);
-        Gaussian<3> place;
-        place.mean = given.mean;
-        place.covariance = given.covariance;
-        // thesis eq. (5.8)
-        places.add(given.logWeight + WhitenedGaussian<3>(place).logPdf(point.data()),
-                   given.mean);
-    });
-}
-
-void candidatesAnywhere(const ModalityMap& prior, double value, CandidatePlaces& places) {
-    const ModalityGroup& group = prior.group();
-    for (const std::uint32_t j : group.byValue(prior.channel()).at(value)) {
-        const GivenValue given = givenValue(group.mixture()[j], prior.channel(), value);
-        places.add(given.logWeight, given.mean);
+/// Components that weigh most at a value, thesis eq. (5.9). Which of them are kept is
+/// decided by the values of the other priors too, as far as the component holds them.
+std::size_t likeliestAnywhere(const GroupPriors& priors, const ChannelValue& value,
+                              std::uint32_t* components) {
+    const std::vector<float>& support = priors.group->mixture().places().support;
+    std::array<const ValueIndex*, kMaxModalities> byValue{};
+    for (std::size_t i = 0; i < priors.count; ++i)
+        byValue[i] = &priors.group->byValue(priors.values[i].channel);
+    std::array<double, kPlacesPerPrior> weights{};
+    std::size_t found = 0;
+    for (const std::uint32_t k : priors.group->byValue(value.channel).at(value.value)) {
+        double weight = std::log(double(support[k]));
+        for (std::size_t i = 0; i < priors.count; ++i)
+            weight += byValue[i]->logDensity(k, priors.values[i].value);
+        if (found == kPlacesPerPrior && !(weight > weights[found - 1])) continue;
+        std::size_t at = found < kPlacesPerPrior ? found++ : found - 1;
+        for (; at > 0 && weights[at - 1] < weight; --at) {
+            weights[at] = weights[at - 1];
+            components[at] = components[at - 1];
+        }
+        weights[at] = weight;
+        components[at] = k;
     }
+    return found;
+}
+
+/// Candidate places L of thesis 5.2.2: from components around the point, if it is given and
+/// something is known there, else from anywhere.
+std::vector<Eigen::Vector3d> candidatePlaces(const std::vector<GroupPriors>& groups,
+                                             const Eigen::Vector3d* point) {
+    std::vector<Eigen::Vector3d> places;
+    const auto collect = [&](bool around) {
+        for (const GroupPriors& priors : groups)
+            for (std::size_t i = 0; i < priors.count; ++i) {
+                std::array<std::uint32_t, kPlacesPerPrior> components{};
+                const ChannelValue& value = priors.values[i];
+                const std::size_t n =
+                    around ? priors.group->likeliest(value, *point, kPlacesPerPrior,
+                                                     components.data())
+                           : likeliestAnywhere(priors, value, components.data());
+                for (std::size_t c = 0; c < n; ++c)
+                    places.push_back(
+                        placeOf(priors.group->mixture()[components[c]], value));
+            }
+    };
+    places.reserve(kPlacesPerPrior * kMaxModalities);
+    if (point != nullptr) collect(true);
+    if (places.empty()) collect(false);
+    return places;
 }
 
 }  // namespace
@@ -85,21 +97,15 @@ void candidatesAnywhere(const ModalityMap& prior, double value, CandidatePlaces&
 CrossModalEstimate inferModality(const ModalityMap& target,
                                  const std::vector<Prior>& priors,
                                  const Eigen::Vector3d* point) {
+    const std::vector<GroupPriors> groups = byGroup(priors);
     CrossModalEstimate best;
-    const auto consider = [&](const Eigen::Vector3d& place) {
-        double likelihood = 0;
-        for (const Prior& prior : priors)
-            likelihood += std::exp(prior.map->logLikelihood(prior.value, place));
-        if (best.known && !(likelihood > best.likelihood)) return;
-        const ModalityEstimate there = target.at(place);
-        if (!there.known) return;
-        best = {there.mean, there.variance, true, place, likelihood};
-    };
-    for (const Prior& prior : priors) {
-        CandidatePlaces places;
-        if (point != nullptr) candidatesNear(*prior.map, prior.value, *point, places);
-        if (places.size() == 0) candidatesAnywhere(*prior.map, prior.value, places);
-        for (std::size_t i = 0; i < places.size(); ++i) consider(places[i]);
+    for (const Eigen::Vector3d& place : candidatePlaces(groups, point)) {
+        double likelihood = 0;  // thesis eq. (5.12), (5.14)
+        for (const GroupPriors& g : groups)
+            likelihood += g.group->density(g.values.data(), g.count, place);
+        if (best.known && !(likelihood > best.likelihood)) continue;
+        const ModalityEstimate there = target.at(place);  // thesis eq. (5.13)
+        if (there.known) best = {there.mean, there.variance, true, place, likelihood};
     }
     return best;
 }

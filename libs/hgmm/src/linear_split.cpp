@@ -16,8 +16,8 @@ namespace {
 using PerChannel = std::array<double, kMaxModalities>;
 
 /// A region is cut at one of these many places, this far apart [sigma].
-constexpr int kCuts = 9;
-constexpr double kCutStep = 0.3;
+constexpr int kCuts = 5;
+constexpr double kCutStep = 0.5;
 /// A part needs so many samples for a line to mean something.
 constexpr std::size_t kMinSamples = 3;
 /// Parameters of a linear function of place.
@@ -138,11 +138,7 @@ class Splitter {
     }
 
     void tryCuts(Node& node, const Eigen::Vector3d& direction, double sigma) const {
-        std::array<ChannelSums, kCuts + 1> bins{
-            {ChannelSums(channels_), ChannelSums(channels_), ChannelSums(channels_),
-             ChannelSums(channels_), ChannelSums(channels_), ChannelSums(channels_),
-             ChannelSums(channels_), ChannelSums(channels_), ChannelSums(channels_),
-             ChannelSums(channels_)}};
+        std::vector<ChannelSums> bins(kCuts + 1, ChannelSums(channels_));
         std::array<std::size_t, kCuts + 1> inBin{};
         const double first = direction.dot(node.sums.mean()) - kCuts / 2 * kCutStep * sigma;
         const double perStep = 1 / (kCutStep * sigma);
@@ -152,7 +148,7 @@ class Splitter {
             bins[bin].add(samples_.sums(s));
             ++inBin[bin];
         }
-        std::array<ChannelSums, kCuts + 1> above = bins;
+        std::vector<ChannelSums> above = bins;
         for (std::size_t b = kCuts; b-- > 0;) above[b].add(above[b + 1]);
         ChannelSums below(channels_);
         std::size_t count = 0;

@@ -8,6 +8,7 @@
 #include "hgmm/gaps.h"
 #include "hgmm/update.h"
 #include "map_derived.h"
+#include "run_both.h"
 #include "storable.h"
 
 namespace hgmm {
@@ -83,6 +84,10 @@ bool Map::freePerComponent() const {
            static_cast<int>(FreeSpaceModel::perComponent);
 }
 
+bool Map::isBlank() const {
+    return empty() && model_.modalities.groups().empty();
+}
+
 void Map::clear() {
     *this = Map(params_);
 }
@@ -90,15 +95,26 @@ void Map::clear() {
 InsertReport Map::insert(const Scan& scan) {
     scan.validate();
     InsertReport report;
+    const Eigen::Vector3d origin = isBlank() ? latticePoint(scan.T_map_sensor.t) : origin_;
+    const Pose T_local_sensor{scan.T_map_sensor.R, scan.T_map_sensor.t - origin};
+    const auto insertPlaces = [&] { insertSpace(scan, T_local_sensor, report); };
+    const auto insertModalities = [&] {
+        model_.modalities.insert(scan, T_local_sensor, params_);
+    };
+    if (params_.modalities.empty() || scan.channels.empty())
+        insertPlaces();
+    else
+        runBoth(insertPlaces, insertModalities);
+    if (report.samples > 0) origin_ = origin;
+    return report;
+}
+
+void Map::insertSpace(const Scan& scan, const Pose& T_local_sensor, InsertReport& report) {
     Mixture<3> samples_sensor = filterScan(scan, params_.filter, &report.points);
     bridgeGaps(samples_sensor, params_.cells);
     report.samples = samples_sensor.size();
-    if (samples_sensor.empty()) return report;
-
-    if (empty()) origin_ = latticePoint(scan.T_map_sensor.t);
-    const Pose T_local_sensor{scan.T_map_sensor.R, scan.T_map_sensor.t - origin_};
+    if (samples_sensor.empty()) return;
     const Mixture<3> samples = transformed(samples_sensor, T_local_sensor);
-
     const std::vector<RayBundle> bundles =
         insertSurfaces(samples, T_local_sensor.t, report);
     if (!freePerComponent())
@@ -107,9 +123,7 @@ InsertReport Map::insert(const Scan& scan) {
                                      params_.occupancy.band, params_.occupancy.freeSpace))
             derived_->updateFree(*this, i);
     contradict(samples, T_local_sensor.t, report);
-    model_.modalities.insert(scan, T_local_sensor, params_);
     derived_->finish(*this);
-    return report;
 }
 
 std::vector<RayBundle> Map::insertSurfaces(const Mixture<3>& samples,

@@ -6,7 +6,9 @@
 
 #include "byte_stream.h"
 #include "component_codec.h"
+#include "exact_codec.h"
 #include "hgmm/map.h"
+#include "modality_archive.h"
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "saved maps are little-endian");
 static_assert(std::numeric_limits<float>::is_iec559 &&
@@ -27,10 +29,11 @@ namespace {
 //   exact: surfaces, four f32 arrays of views, free space with i8 octaves behind it, free
 //   space of surfaces
 //   compact: u64 bytes, then encodeSurfaces; twice u64 bytes, then encodeFree
-// An exact mixture is u64 components, then f32 arrays: support, means, covariances
-// (packed).
+// version 3 goes on:
+//   modalities (putModalities). Maps that model none are written as version 2.
+// An exact mixture is that of putMixture.
 constexpr char kMagic[4] = {'H', 'G', 'M', 'M'};
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3, kWithoutModalities = 2;
 constexpr std::size_t kHeader = 24;
 
 /// 64-bit checksum, eight bytes at a time: copies inside a particle filter go through here.
@@ -49,13 +52,6 @@ std::uint64_t checksum(const std::uint8_t* data, std::size_t size) {
     std::memcpy(&tail, data, size);
     mix(tail);
     return h;
-}
-
-template <typename Mix, typename Visitor>
-void forEachArray(Mix& mixture, Visitor&& visit) {
-    visit(mixture.support);
-    for (auto& axis : mixture.mean) visit(axis);
-    for (auto& entry : mixture.covariance) visit(entry);
 }
 
 void putParams(Writer& out, const MapParams& params) {
@@ -92,45 +88,6 @@ MapParams getParams(Reader& in) {
         throw FormatError(std::string("saved map: parameter ") + e.what());
     }
     return params;
-}
-
-template <int D>
-void putMixture(Writer& out, const Mixture<D>& mixture) {
-    out.put(static_cast<std::uint64_t>(mixture.size()));
-    forEachArray(mixture,
-                 [&](const std::vector<float>& a) { out.put(a.data(), a.size()); });
-}
-
-template <int D>
-Mixture<D> getMixture(Reader& in) {
-    constexpr std::size_t bytesPerComponent = sizeof(float) * (1 + D + Mixture<D>::packed);
-    const auto n = in.get<std::uint64_t>();
-    if (n > in.left() / bytesPerComponent)
-        throw FormatError("saved map: it ends too early");
-    Mixture<D> mixture;
-    forEachArray(mixture, [&](std::vector<float>& array) {
-        array.resize(n);
-        in.get(array.data(), n);
-    });
-    return mixture;
-}
-
-/// A compact section: its length, then what `encode` appends.
-template <typename Encode>
-void putSection(Writer& out, Encode&& encode) {
-    std::vector<std::uint8_t> section;
-    encode(section);
-    out.put(static_cast<std::uint64_t>(section.size()));
-    out.put(section.data(), section.size());
-}
-
-template <typename Decode>
-void getSection(Reader& in, Decode&& decode) {
-    const auto bytes = in.get<std::uint64_t>();
-    if (bytes > in.left()) throw FormatError("saved map: it ends too early");
-    if (decode(in.here(), static_cast<std::size_t>(bytes)) != bytes)
-        throw FormatError("saved map: bytes are left over in a section");
-    in.skip(static_cast<std::size_t>(bytes));
 }
 
 /// Returns a reader behind the header of a buffer that is whole and undamaged.
@@ -272,12 +229,14 @@ std::vector<std::uint8_t> Map::save(Encoding encoding) const {
     std::vector<std::uint8_t> buffer;
     Writer out(buffer);
     out.put(kMagic, sizeof(kMagic));
-    out.put(kVersion);
+    out.put(params_.modalities.empty() ? kWithoutModalities : kVersion);
     out.put(std::uint64_t{0});
     out.put(std::uint64_t{0});
     putParams(out, params_);
     out.put(origin_.data(), 3);
     ModelArchive::put(out, model_, encoding);
+    if (!params_.modalities.empty())
+        putModalities(out, params_, model_.modalities, encoding);
 
     const std::uint64_t size = buffer.size();
     const std::uint64_t sum = checksum(buffer.data() + kHeader, size - kHeader);
@@ -293,6 +252,8 @@ Map Map::load(const std::uint8_t* data, std::size_t size) try {
     in.get(map.origin_.data(), 3);
     if (!map.origin_.allFinite()) throw FormatError("saved map: its origin is not finite");
     map.model_ = ModelArchive::get(in, version);
+    if (version > kWithoutModalities)
+        map.model_.modalities = getModalities(in, map.params_);
     if (in.left() != 0) throw FormatError("saved map: bytes are left over at its end");
     if (map.freePerComponent() &&
         map.model_.freeOfSurfaces.size() != map.model_.surfaces.size())

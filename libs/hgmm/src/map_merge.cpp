@@ -50,10 +50,10 @@ void Map::merge(const Map& other, const Pose& T_this_other) {
         throw std::invalid_argument(
             "merge: freeSpaceModel differs; maps of different models cannot be merged");
     if (&other == this) return merge(Map(other), T_this_other);
-    if (other.empty()) return;
+    if (other.isBlank()) return;
     const Eigen::Vector3d otherOrigin_this =
         T_this_other.R * other.origin_ + T_this_other.t;
-    if (empty()) origin_ = otherOrigin_this.array().round();
+    if (isBlank()) origin_ = otherOrigin_this.array().round();
     const Pose T_local_other{T_this_other.R, otherOrigin_this - origin_};
 
     const Model& from = other.model_;

@@ -38,13 +38,14 @@ ModalityEstimate ModalityMap::at(const Eigen::Vector3d& point) const {
     return group_->at(channel_, point);
 }
 
-double ModalityMap::logLikelihood(double value, const Eigen::Vector3d& point) const {
-    return group_->logLikelihood(channel_, value, point);
+double ModalityMap::density(double value, const Eigen::Vector3d& point) const {
+    const ChannelValue asked{channel_, value};
+    return group_->density(&asked, 1, point);
 }
 
 std::size_t ModalityMap::savedBytes() const {
     std::vector<std::uint8_t> bytes;
-    encodeModalities(*group_, bytes);
+    encodeChannels(group_->mixture(), bytes);
     return bytes.size() / group_->names().size();
 }
 

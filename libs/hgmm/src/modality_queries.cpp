@@ -1,6 +1,6 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 
 #include "hgmm/gaussian.h"
 #include "hgmm/hierarchy.h"
@@ -12,20 +12,16 @@ namespace hgmm {
 namespace {
 
 /// Components farther than this from a point say nothing of it [sigma].
-constexpr float kSigmas = 4.F;
+constexpr float kSigmas = 3.F;
+constexpr std::size_t kMostLikeliest = 16;
+constexpr double kPi = 3.14159265358979323846;
 
-double logNormal(double value, double mean, double variance) {
+double normal(double value, double mean, double variance) {
     const double d = value - mean;
-    return -0.5 * (kLogTwoPi + std::log(variance) + d * d / variance);
+    return std::exp(-0.5 * d * d / variance) / std::sqrt(2 * kPi * variance);
 }
 
 }  // namespace
-
-struct ModalityGroup::Term {
-    double weight;    ///< pi_k phi(x; mu_kX, Sigma_kXX), unnormalised
-    double mean;      ///< m_k(x), thesis eq. (5.4)
-    double variance;  ///< sigma_k^2, thesis eq. (5.5)
-};
 
 ModalityGroup::ModalityGroup(std::vector<std::string> names, ChannelMixture mixture)
     : names_(std::move(names)),
@@ -83,48 +79,74 @@ const Mixture<4>& ModalityGroup::level(int channel, std::size_t level,
 }
 
 template <typename Visitor>
-void ModalityGroup::visitTerms(int channel, const Eigen::Vector3d& point,
-                               Visitor&& visit) const {
+void ModalityGroup::visitAround(const Eigen::Vector3d& point, Visitor&& visit) const {
     const ComponentIndex& components = index();
     const Eigen::Vector3f p = point.cast<float>();
-    const Mixture<3>& places = mixture_.places();
-    components.visitCandidates(p.x(), p.y(), p.z(), [&](std::uint32_t j) {
-        const ComponentIndex::Factor& factor = components.factor(j);
+    components.visitCandidates(p.x(), p.y(), p.z(), [&](std::uint32_t k) {
+        const ComponentIndex::Factor& factor = components.factor(k);
         const float squared = factor.squaredMahalanobis(p.data());
         if (!(squared <= kSigmas * kSigmas)) return;
-        double mean = mixture_.mean(channel, j);
-        for (int d = 0; d < 3; ++d)
-            mean += double(mixture_.slope(channel, d, j)) * (point[d] - places.mean[d][j]);
+        // Within kSigmas of a component, densities are far from the ends of a double.
         const double logDensity = double(factor.logNormalizer()) - 0.5 * double(squared);
-        visit(Term{double(places.support[j]) * std::exp(logDensity), mean,
-                   mixture_.residual(channel, j)});
+        visit(k, double(mixture_.places().support[k]) * std::exp(logDensity));
     });
+}
+
+double ModalityGroup::regressed(int channel, std::uint32_t k,
+                                const Eigen::Vector3d& point) const {
+    double mean = mixture_.mean(channel, k);
+    for (int d = 0; d < 3; ++d)
+        mean += double(mixture_.slope(channel, d, k)) *
+                (point[d] - mixture_.places().mean[d][k]);
+    return mean;
 }
 
 ModalityEstimate ModalityGroup::at(int channel, const Eigen::Vector3d& point) const {
     // Running mean and sum of squares about it, so that no digits cancel.
     double weight = 0, mean = 0, squares = 0;
-    visitTerms(channel, point, [&](const Term& t) {
-        if (!(t.weight > 0)) return;
-        weight += t.weight;
-        const double before = t.mean - mean;
-        mean += t.weight / weight * before;
-        squares += t.weight * (t.variance + before * (t.mean - mean));
+    visitAround(point, [&](std::uint32_t k, double w) {
+        weight += w;
+        const double there = regressed(channel, k, point), before = there - mean;
+        mean += w / weight * before;
+        squares += w * (mixture_.residual(channel, k) + before * (there - mean));
     });
     if (weight > 0) return {mean, squares / weight, true};
     const Overall& all = overall(channel);
     return {all.mean, all.variance, false};
 }
 
-double ModalityGroup::logLikelihood(int channel, double value,
-                                    const Eigen::Vector3d& point) const {
-    double weight = 0, log = -std::numeric_limits<double>::infinity();
-    visitTerms(channel, point, [&](const Term& t) {
-        if (!(t.weight > 0)) return;
-        weight += t.weight;
-        log = logAddExp(log, std::log(t.weight) + logNormal(value, t.mean, t.variance));
+double ModalityGroup::density(const ChannelValue* values, std::size_t n,
+                              const Eigen::Vector3d& point) const {
+    double weight = 0, sum = 0;
+    visitAround(point, [&](std::uint32_t k, double w) {
+        weight += w;
+        for (std::size_t i = 0; i < n; ++i)
+            sum += w * normal(values[i].value, regressed(values[i].channel, k, point),
+                              mixture_.residual(values[i].channel, k));
     });
-    return weight > 0 ? log - std::log(weight) : log;
+    return weight > 0 ? sum / weight : 0.0;
+}
+
+std::size_t ModalityGroup::likeliest(const ChannelValue& value,
+                                     const Eigen::Vector3d& point, std::size_t most,
+                                     std::uint32_t* components) const {
+    std::array<double, kMostLikeliest> weights{};
+    std::size_t found = 0;
+    most = std::min(most, kMostLikeliest);
+    // The product of (5.9) and the density in (5.8) is that of place and value together.
+    visitAround(point, [&](std::uint32_t k, double w) {
+        const double joint = w * normal(value.value, regressed(value.channel, k, point),
+                                        mixture_.residual(value.channel, k));
+        if (found == most && !(joint > weights[most - 1])) return;
+        std::size_t at = found < most ? found++ : most - 1;
+        for (; at > 0 && weights[at - 1] < joint; --at) {
+            weights[at] = weights[at - 1];
+            components[at] = components[at - 1];
+        }
+        weights[at] = joint;
+        components[at] = k;
+    });
+    return found;
 }
 
 const ModalityGroup::Overall& ModalityGroup::overall(int channel) const {

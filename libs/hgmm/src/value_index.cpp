@@ -10,36 +10,20 @@ namespace {
 constexpr std::size_t kIntervals = 256;
 constexpr double kSigmas = 4.0;
 
-/// The marginal of a component over the channel: one term of thesis eq. (5.9).
-struct Marginal {
-    double mean, sigma, logPeak;
-
-    double logWeight(double value) const {
-        const double d = (value - mean) / sigma;
-        return logPeak - 0.5 * d * d;
-    }
-};
-
-std::vector<Marginal> marginalsOf(const ChannelMixture& mixture, int channel) {
-    std::vector<Marginal> all;
-    all.reserve(mixture.size());
-    for (std::size_t i = 0; i < mixture.size(); ++i) {
-        const Gaussian<4> g = mixture[i].joint(channel);
-        const double sigma = std::sqrt(g.covariance(3, 3));
-        all.push_back({g.mean[3], sigma, std::log(g.support) - std::log(sigma)});
-    }
-    return all;
-}
-
 }  // namespace
 
 ValueIndex::ValueIndex(const ChannelMixture& mixture, int channel) {
     if (mixture.empty()) return;
-    const std::vector<Marginal> all = marginalsOf(mixture, channel);
-    double high = low_ = all[0].mean;
-    for (const Marginal& m : all) {
-        low_ = std::min(low_, m.mean - kSigmas * m.sigma);
-        high = std::max(high, m.mean + kSigmas * m.sigma);
+    marginals_.reserve(mixture.size());
+    for (std::size_t i = 0; i < mixture.size(); ++i) {
+        const Gaussian<4> g = mixture[i].joint(channel);
+        const double perSigma = 1 / std::sqrt(g.covariance(3, 3));
+        marginals_.push_back({g.mean[3], perSigma, std::log(perSigma)});
+    }
+    double high = low_ = marginals_[0].mean;
+    for (const Marginal& m : marginals_) {
+        low_ = std::min(low_, m.mean - kSigmas / m.perSigma);
+        high = std::max(high, m.mean + kSigmas / m.perSigma);
     }
     perInterval_ = double(kIntervals) / (high - low_);
     struct Entry {
@@ -51,16 +35,17 @@ ValueIndex::ValueIndex(const ChannelMixture& mixture, int channel) {
         }
     };
     std::vector<std::vector<Entry>> intervals(kIntervals);
-    for (std::uint32_t i = 0; i < all.size(); ++i) {
-        const auto intervalOf = [&](double value) {
+    for (std::uint32_t i = 0; i < marginals_.size(); ++i) {
+        const auto intervalOf = [&](double sigmas) {
+            const double value = marginals_[i].mean + sigmas / marginals_[i].perSigma;
             return static_cast<std::size_t>(
                 std::clamp((value - low_) * perInterval_, 0.0, double(kIntervals - 1)));
         };
-        const std::size_t last = intervalOf(all[i].mean + kSigmas * all[i].sigma);
-        for (std::size_t k = intervalOf(all[i].mean - kSigmas * all[i].sigma); k <= last;
-             ++k) {
+        const double logSupport = std::log(double(mixture.places().support[i]));
+        const std::size_t last = intervalOf(kSigmas);
+        for (std::size_t k = intervalOf(-kSigmas); k <= last; ++k) {
             const double centre = low_ + (double(k) + 0.5) / perInterval_;
-            intervals[k].push_back({all[i].logWeight(centre), i});
+            intervals[k].push_back({logSupport + logDensity(i, centre), i});
         }
     }
     begin_.assign(1, 0);

@@ -11,7 +11,7 @@ namespace hgmm {
 /// intervals, each with its kCandidates components of largest weight at its centre.
 class ValueIndex {
  public:
-    static constexpr std::size_t kCandidates = 16;
+    static constexpr std::size_t kCandidates = 32;
 
     ValueIndex(const ChannelMixture& mixture, int channel);
 
@@ -25,12 +25,23 @@ class ValueIndex {
     };
     Range at(double value) const;
 
+    /// log of phi(value; mu_kLambda, Sigma_kLambdaLambda) of eq. (5.9), up to a constant.
+    double logDensity(std::uint32_t k, double value) const {
+        const double d = (value - marginals_[k].mean) * marginals_[k].perSigma;
+        return marginals_[k].logPerSigma - 0.5 * d * d;
+    }
+
     std::size_t liveBytes() const {
-        return begin_.capacity() * sizeof(std::uint32_t) +
-               component_.capacity() * sizeof(std::uint32_t);
+        return (begin_.capacity() + component_.capacity()) * sizeof(std::uint32_t) +
+               marginals_.capacity() * sizeof(Marginal);
     }
 
  private:
+    struct Marginal {
+        double mean, perSigma, logPerSigma;
+    };
+
+    std::vector<Marginal> marginals_;  ///< of every component over the channel
     double low_ = 0, perInterval_ = 0;
     std::vector<std::uint32_t> begin_{0, 0};  ///< per interval and one more
     std::vector<std::uint32_t> component_;

@@ -65,13 +65,17 @@ class ChannelMixture {
         return places_ == o.places_ && fits_ == o.fits_;
     }
 
-    /// Calls visit(array) for the arrays of one channel: for saving.
+    /// Calls visit(array) for the arrays of one channel: for saving and loading.
     template <typename Visitor>
     void forEachArray(int channel, Visitor&& visit) {
-        fits_[channel].forEachArray(visit);
+        fits_.at(static_cast<std::size_t>(channel)).forEachArray(visit);
     }
-    /// For loading: arrays of fits take this many entries.
-    Mixture<3>& placesToLoad(std::size_t size);
+    template <typename Visitor>
+    void forEachArray(int channel, Visitor&& visit) const {
+        fits_.at(static_cast<std::size_t>(channel)).forEachArray(visit);
+    }
+    /// Replaces the places; arrays of channels take their size. For loading.
+    void assignPlaces(Mixture<3> places);
 
  private:
     struct Fits {
@@ -83,6 +87,12 @@ class ChannelMixture {
             visit(mean);
             visit(residual);
             for (auto& axis : slope) visit(axis);
+        }
+        template <typename Visitor>
+        void forEachArray(Visitor&& visit) const {
+            visit(mean);
+            visit(residual);
+            for (const auto& axis : slope) visit(axis);
         }
         bool operator==(const Fits& o) const {
             return mean == o.mean && residual == o.residual && slope == o.slope;

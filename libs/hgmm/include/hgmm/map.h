@@ -64,7 +64,8 @@ class Map {
     void setParams(const MapParams& params);
 
     /// filter -> novelty split -> { known: update | novel: EM, hierarchy, append }, then
-    /// contradictions by rays that pass through surfaces, then free space.
+    /// free space, then contradictions by rays that pass through surfaces; modalities, which
+    /// are models of their own, at the same time.
     /// Throws std::invalid_argument for a malformed scan (Scan::validate), leaving the map
     /// as it was; a scan without usable points changes nothing.
     InsertReport insert(const Scan& scan);
@@ -182,7 +183,10 @@ class Map {
         bool operator==(const Model& o) const;
     };
 
+    /// Whether the local frame may still be anywhere.
+    bool isBlank() const;
     bool freePerComponent() const;
+    void insertSpace(const Scan& scan, const Pose& T_local_sensor, InsertReport& report);
     /// Returns what the scan gave to each component that it changed or added.
     std::vector<RayBundle> insertSurfaces(const Mixture<3>& samples,
                                           const Eigen::Vector3d& sensorOrigin,

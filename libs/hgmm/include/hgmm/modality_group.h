@@ -16,6 +16,12 @@ struct MapParams;
 class ChannelSamples;
 class ValueIndex;
 
+/// A value of one of the modalities of a group.
+struct ChannelValue {
+    int channel = 0;
+    double value = 0.0;  ///< [unit of the channel]
+};
+
 /// Modalities that were always measured at the same points, as the colours of a camera are:
 /// one mixture over (X, Lambda) for each (thesis 5.1), with common places, so that these
 /// are found, refined and saved once.
@@ -50,7 +56,14 @@ class ModalityGroup {
     /// @name Questions; `point` is in the local frame.
     /// @{
     ModalityEstimate at(int channel, const Eigen::Vector3d& point) const;
-    double logLikelihood(int channel, double value, const Eigen::Vector3d& point) const;
+    /// Sum of p(Lambda_c = value | x), thesis eq. (5.2), over `n` channels and values: the
+    /// score of thesis eq. (5.12) and (5.14) [sum of 1/unit]. Zero where nothing is known.
+    double density(const ChannelValue* values, std::size_t n,
+                   const Eigen::Vector3d& point) const;
+    /// The terms of thesis eq. (5.8) that weigh most at a place: components by falling
+    /// density of place and value, at most `most` <= 16. Returns how many.
+    std::size_t likeliest(const ChannelValue& value, const Eigen::Vector3d& point,
+                          std::size_t most, std::uint32_t* components) const;
     /// The mixture over (X, Lambda) of a level < params.levels, 0 being the base.
     const Mixture<4>& level(int channel, std::size_t level,
                             const HierarchyParams& params) const;
@@ -66,11 +79,14 @@ class ModalityGroup {
 
  private:
     struct Cache;    ///< index, levels, values: built when first needed
-    struct Term;     ///< one component's share of an answer
     struct Overall;  ///< what all that was measured of a channel has together
 
+    /// Calls visit(k, pi_k phi(x; mu_kX, Sigma_kXX)), unnormalised, for the components
+    /// around a point.
     template <typename Visitor>
-    void visitTerms(int channel, const Eigen::Vector3d& point, Visitor&& visit) const;
+    void visitAround(const Eigen::Vector3d& point, Visitor&& visit) const;
+    /// m_k(x), thesis eq. (5.4).
+    double regressed(int channel, std::uint32_t k, const Eigen::Vector3d& point) const;
 
     const Overall& overall(int channel) const;
 

@@ -35,8 +35,8 @@ class ModalityMap {
     const Mixture<4>& mixture(std::size_t level = 0) const;
     /// Regression (5.6) and its variance (5.7) at a point of the local frame.
     ModalityEstimate at(const Eigen::Vector3d& point) const;
-    /// log p(Lambda = value | x), thesis eq. (5.2) [nat]; -infinity where nothing is known.
-    double logLikelihood(double value, const Eigen::Vector3d& point) const;
+    /// p(Lambda = value | x), thesis eq. (5.2) [1/unit]; zero where nothing is known.
+    double density(double value, const Eigen::Vector3d& point) const;
     /// Bytes that the modality adds to a compactly saved map; places shared with other
     /// modalities count in equal parts.
     std::size_t savedBytes() const;
