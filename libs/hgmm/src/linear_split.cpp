@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <queue>
+#include <utility>
 
 #include "channel_sums.h"
 #include "hgmm/gaussian.h"
@@ -31,19 +32,27 @@ struct Split {
 
 struct Node {
     LinearRegion region;
-    ChannelSums sums;
-    PerChannel unexplained{};
+    ChannelSums sums;          ///< of the samples
+    PerChannel unexplained{};  ///< of the samples
+    double pointsInAll = 0;    ///< prior included [count]
+    PerChannel unexplainedInAll{};
     bool evaluated = false;
     Split split;
+
+    Node(LinearRegion of, int channels) : region(std::move(of)), sums(channels) {}
 };
 
-/// Whether two linear functions instead of one are worth their parameters.
-bool isWorthwhile(double points, int channels, const PerChannel& before,
-                  const PerChannel& after) {
-    double gain = 0;
-    for (int c = 0; c < channels; ++c)
-        gain += points * std::log((before[c] + 1e-30) / (after[c] + 1e-30));
-    return gain > channels * kParametersPerFit * std::log(points);
+/// Whether two linear functions instead of one, which explain `gain` more of the samples,
+/// are worth their parameters, given all that was ever seen of a region: what varies
+/// between scans counts as noise.
+bool isWorthwhile(const Node& node, int channels, const PerChannel& gain) {
+    double logGain = 0;
+    for (int c = 0; c < channels; ++c) {
+        const double before = node.unexplainedInAll[c] + 1e-30;
+        logGain -= std::log(std::max(1 - gain[c] / before, 1e-12));
+    }
+    const double n = node.pointsInAll;
+    return n * logGain > channels * kParametersPerFit * std::log(n);
 }
 
 class Splitter {
@@ -93,7 +102,7 @@ class Splitter {
     };
 
     void addNode(LinearRegion region) {
-        Node node{std::move(region), ChannelSums(channels_), {}, false, {}};
+        Node node(std::move(region), channels_);
         for (const std::uint32_t s : node.region.samples) node.sums.add(samples_.sums(s));
         setUnexplained(node);
         nodes_.push_back(std::move(node));
@@ -103,6 +112,10 @@ class Splitter {
         node.sums.unexplained(node.unexplained);
         node.evaluated = false;
         for (int c = 0; c < channels_; ++c) unexplained_[c] += node.unexplained[c];
+        ChannelSums all = node.sums;
+        if (node.region.prior) all.add(*node.region.prior);
+        node.pointsInAll = all.count();
+        all.unexplained(node.unexplainedInAll);
     }
 
     double weighted(const PerChannel& sums) const {
@@ -119,7 +132,9 @@ class Splitter {
 
     void enqueue(std::uint32_t i) {
         const Node& node = nodes_[i];
-        if (node.region.samples.size() < 2 * kMinSamples) return;
+        if (node.region.samples.size() < 2 * kMinSamples ||
+            !isWorthwhile(node, channels_, node.unexplained))
+            return;
         queue_.push({node.evaluated ? node.split.gain : weighted(node.unexplained), i});
     }
 
@@ -160,10 +175,10 @@ class Splitter {
             PerChannel parts{}, other{};
             below.unexplained(parts);
             above[b + 1].unexplained(other);
-            for (int c = 0; c < channels_; ++c) parts[c] += other[c];
-            const double gain = weighted(node.unexplained) - weighted(parts);
-            if (gain > node.split.gain &&
-                isWorthwhile(node.sums.count(), channels_, node.unexplained, parts))
+            for (int c = 0; c < channels_; ++c)
+                parts[c] = node.unexplained[c] - parts[c] - other[c];
+            const double gain = weighted(parts);
+            if (gain > node.split.gain && isWorthwhile(node, channels_, parts))
                 node.split = {gain, direction, first + double(b) * kCutStep * sigma};
         }
     }
