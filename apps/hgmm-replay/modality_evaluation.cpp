@@ -14,6 +14,8 @@ using namespace hgmm::evaluation;
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr std::size_t kInferences = 5000;  // at most
 
 /// The values of all modalities but one at a point.

@@ -26,7 +26,7 @@ using Clock = std::chrono::steady_clock;
 using Names = std::vector<std::string>;
 
 constexpr std::size_t kSingleScans = 10;
-constexpr std::size_t kTestPointsOfRun = 600000;
+constexpr std::size_t kTestPointsOfRun = 300000;
 
 bool hasChannel(const hgmm::Scan& scan, const std::string& name) {
     return std::any_of(scan.channels.begin(), scan.channels.end(),

@@ -83,6 +83,28 @@ TEST(ModalityMap, CopiesAndFilesKeepThem) {
     expectWall(loaded.model());
 }
 
+TEST(ModalityMap, ConfigurationsThatNameNoneKeepThoseOfTheLoadedFile) {
+    const std::string file =
+        (std::filesystem::path(::testing::TempDir()) / "hgmm_to_load.hgmm").string();
+    coloured_wall::map().saveToFile(file);
+    for (const auto& [line, expected] :
+         {std::pair{"levels = 4", Names{"r", "g", "b"}},
+          std::pair{"modalities = g, heat", Names{"g", "heat"}}}) {
+        const mrpt::config::CConfigFileMemory config(
+            "[m]\nhgmmMap_count = 1\n[m_hgmmMap_00_creationOpts]\nload_file = " + file +
+            "\n[m_hgmmMap_00_insertOpts]\n" + line + "\n");
+        mrpt::maps::TSetOfMetricMapInitializers definitions;
+        definitions.loadFromConfigFile(config, "m");
+        const mrpt::maps::CMultiMetricMap maps(definitions);
+        const auto map = maps.mapByClass<CHGMMOccupancyMap>();
+        EXPECT_EQ(map->model().modalities(), expected);
+        EXPECT_EQ(map->insertionOptions.params.modalities, expected);
+        EXPECT_NE(map->model().modality("g"), nullptr);
+        EXPECT_EQ(map->model().modality("r") == nullptr, expected.size() == 2);
+    }
+    std::filesystem::remove(file);
+}
+
 /// Points that the colour camera does not see are no reason to forget the others.
 TEST(ModalityMap, PointsWithoutColourAreLeftOutOfTheModalityOnly) {
     auto o = observations::depthImage();

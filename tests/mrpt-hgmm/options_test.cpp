@@ -127,6 +127,17 @@ TEST(Modalities, BadNamesAreRefusedWithSectionAndKey) {
     }
 }
 
+// Such names would be others after a configuration file or an archive.
+TEST(Modalities, NamesThatFilesCannotHoldAreRefused) {
+    hgmm::MapParams params;
+    for (const std::string name : {"a,b", "a;b", "a#b", "a//b", " a", "a ", "a\nb"}) {
+        params.modalities = {name};
+        EXPECT_THROW(params.validate(), std::invalid_argument) << name;
+    }
+    params.modalities = {"water content [%]"};
+    EXPECT_NO_THROW(params.validate());
+}
+
 TEST(OptionErrors, MisspeltNamesAreReportedWithTheNearest) {
     const CConfigFileMemory config(std::string(
         "[m]\nhgmmMap_count = 1\n[m_hgmmMap_00_creationOpts]\nloadfile = x\n"

@@ -48,6 +48,11 @@ void MapParams::validate() const {
     for (auto name = modalities.begin(); name != modalities.end(); ++name) {
         if (name->empty() || name->size() > 255)
             throw std::invalid_argument("modalities: names must have 1 to 255 characters");
+        // Configuration files separate names by commas and begin comments with the others.
+        if (name->find_first_of(",;#/\n\r") != std::string::npos || name->front() == ' ' ||
+            name->back() == ' ')
+            throw std::invalid_argument("modalities: '" + *name +
+                                        "' must hold none of , ; # / and no outer blanks");
         if (std::find(modalities.begin(), name, *name) != name)
             throw std::invalid_argument("modalities: '" + *name + "' is named twice");
     }

@@ -75,6 +75,9 @@ bridge::NewMap CHGMMOccupancyMap::internal_CreateFromMapDefinition(
     auto map = std::make_unique<CHGMMOccupancyMap>();
     if (!ours.load_file.empty()) map->loadFromFile(ours.load_file);
     map->insertionOptions = ours.insertionOpts;
+    // Parameters without the modalities of a map would make it forget them.
+    auto& modalities = map->insertionOptions.params.modalities;
+    if (modalities.empty()) modalities = map->model().modalities();
     map->likelihoodOptions = ours.likelihoodOpts;
     map->renderOptions = ours.renderOpts;
     map->genericMapParams = ours.genericMapParams;

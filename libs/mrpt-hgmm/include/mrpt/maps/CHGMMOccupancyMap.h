@@ -28,7 +28,9 @@ class CHGMMOccupancyMap : public CMetricMap {
     DEFINE_SERIALIZABLE(CHGMMOccupancyMap, mrpt::maps)
 
  public:
-    /// Section `_insertOpts`: all fields of ::hgmm::MapParams, flattened.
+    /// Section `_insertOpts`: all fields of ::hgmm::MapParams, flattened. `modalities` are
+    /// names separated by commas, where `rgb` is short for `r, g, b`; a map forgets what it
+    /// knows of modalities that are not among them any more.
     struct TInsertionOptions : public mrpt::config::CLoadableOptions {
         ::hgmm::MapParams params;
 
@@ -195,8 +197,9 @@ class CHGMMOccupancyMap : public CMetricMap {
 
     MAP_DEFINITION_START(CHGMMOccupancyMap)
     /// Saved map to start from, if not empty. The model comes from this file, all options
-    /// from the configuration (their defaults where it is silent). A relative name is
-    /// looked for in the working folder, then beside the configuration file.
+    /// from the configuration (their defaults where it is silent; modalities are those of
+    /// the file if the configuration names none). A relative name is looked for in the
+    /// working folder, then beside the configuration file.
     std::string load_file;
     TInsertionOptions insertionOpts;
     TLikelihoodOptions likelihoodOpts;
