@@ -80,12 +80,28 @@ TEST(Baseline, ResolutionsGoByTheSensor) {
     for (const auto& [name, depthCamera_m, lidar_m] :
          {std::tuple("octomap", 0.05, 0.3), std::tuple("grid3d", 0.05, 0.3),
           std::tuple("ndt", 0.1, 0.4), std::tuple("ndt-om", 0.1, 0.4),
-          std::tuple("gpoctomap", 0.05, 0.3)}) {
+          std::tuple("gpoctomap", 0.05, 0.3),
+          std::tuple("gpoctomap-published", 0.05, 0.3)}) {
         const auto near = makeBaseline(name), far = makeBaseline(name, SensorKind::lidar);
         EXPECT_EQ(near->options().at(0).first, "resolution") << name;
         EXPECT_DOUBLE_EQ(near->options().at(0).second, depthCamera_m) << name;
         EXPECT_DOUBLE_EQ(far->options().at(0).second, lidar_m) << name;
     }
+}
+
+TEST(Baseline, PublishedSettingsAreNotTheDefaults) {
+    const auto valueOf = [](const Baseline& map, const std::string& option) {
+        for (const auto& [name, value] : map.options())
+            if (name == option) return value;
+        return -1.0;
+    };
+    const auto ours = makeBaseline("gpoctomap:0.1");
+    const auto published = makeBaseline("gpoctomap-published:0.1");
+    EXPECT_DOUBLE_EQ(valueOf(*published, "resolution"), 0.1);
+    EXPECT_DOUBLE_EQ(valueOf(*published, "mergeProbability"), 0.7);
+    EXPECT_DOUBLE_EQ(valueOf(*published, "minVariance"), 1e-3);
+    EXPECT_DOUBLE_EQ(valueOf(*published, "sampleSpacing"), 0.1);
+    EXPECT_DOUBLE_EQ(valueOf(*ours, "sampleSpacing"), 0.2);
 }
 
 TEST(Baseline, AllAreNamedInTheErrorAndCanBeMade) {
@@ -96,7 +112,7 @@ TEST(Baseline, AllAreNamedInTheErrorAndCanBeMade) {
         message = error.what();
     }
     EXPECT_NE(message.find("voxels"), std::string::npos);
-    ASSERT_EQ(baselineNames().size(), 6U);
+    ASSERT_EQ(baselineNames().size(), 7U);
     for (const auto& [name, line] : baselineNames()) {
         EXPECT_NE(message.find(name), std::string::npos) << name;
         EXPECT_FALSE(line.empty()) << name;

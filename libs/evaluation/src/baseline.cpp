@@ -25,6 +25,10 @@ std::unique_ptr<Baseline> withResolution(double resolution_m) {
     return std::make_unique<B>(resolution_m);
 }
 
+std::unique_ptr<Baseline> publishedGpOctomap(double resolution_m) {
+    return std::make_unique<GpOctomapBaseline>(GpOctomapParams::asPublished(resolution_m));
+}
+
 std::unique_ptr<Baseline> nearest(double) {
     return std::make_unique<NearestBaseline>();
 }
@@ -41,6 +45,8 @@ const std::vector<Entry>& entries() {
          withResolution<NdtOmBaseline>},
         {"gpoctomap", "local Gaussian processes fused into an octree", 0.05, 0.3,
          withResolution<GpOctomapBaseline>},
+        {"gpoctomap-published", "the same with the settings of its authors' code", 0.05,
+         0.3, publishedGpOctomap},
         {"nn", "distance from the nearest of all points", 0.0, 0.0, nearest}};
     return all;
 }

@@ -53,6 +53,17 @@ GpOctomapParams GpOctomapParams::atResolution(double resolution_m) {
     return params;
 }
 
+GpOctomapParams GpOctomapParams::asPublished(double resolution_m) {
+    GpOctomapParams params = atResolution(resolution_m);
+    params.noise = 0.3;
+    params.minVariance = 1e-3;
+    params.gain = 100.0;
+    params.mergeProbability = 0.7;
+    params.freeSpacing_m = 2.0 * resolution_m;
+    params.sampleSpacing_m = resolution_m;
+    return params;
+}
+
 void GpOctomapParams::validate() const {
     require(isPositive(resolution_m), "resolution_m must be > 0");
     require(isPositive(length_m), "length_m must be > 0");

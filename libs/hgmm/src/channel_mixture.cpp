@@ -11,7 +11,7 @@ namespace hgmm {
 namespace {
 
 /// Smallest residual variance: floats hold it, and densities stay far from overflow.
-constexpr double kLeastResidual = 1e-12;
+constexpr double kLeastFitVariance = 1e-12;
 
 }  // namespace
 
@@ -47,7 +47,7 @@ void ChannelMixture::set(std::size_t i, const ChannelGaussian& component) {
     for (std::size_t c = 0; c < fits_.size(); ++c) {
         const ChannelFit& fit = component.fits[c];
         fits_[c].mean[i] = static_cast<float>(fit.mean);
-        fits_[c].residual[i] = static_cast<float>(std::max(fit.residual, kLeastResidual));
+        fits_[c].residual[i] = static_cast<float>(std::max(fit.residual, kLeastFitVariance));
         for (int d = 0; d < 3; ++d) fits_[c].slope[d][i] = static_cast<float>(fit.slope[d]);
     }
 }

@@ -12,7 +12,7 @@ namespace hgmm {
 namespace {
 
 /// Components farther than this from a point say nothing of it [sigma].
-constexpr float kSigmas = 3.F;
+constexpr float kKnownSigmas = 3.F;
 constexpr std::size_t kMostLikeliest = 16;
 constexpr double kPi = 3.14159265358979323846;
 
@@ -47,7 +47,7 @@ ModalityGroup ModalityGroup::withNames(const std::vector<std::string>& names) co
 
 const ComponentIndex& ModalityGroup::index() const {
     return cache_->index.get([this] {
-        auto made = std::make_unique<ComponentIndex>(kSigmas);
+        auto made = std::make_unique<ComponentIndex>(kKnownSigmas);
         made->rebuild(mixture_.places());
         return made;
     });
@@ -85,8 +85,8 @@ void ModalityGroup::visitAround(const Eigen::Vector3d& point, Visitor&& visit) c
     components.visitCandidates(p.x(), p.y(), p.z(), [&](std::uint32_t k) {
         const ComponentIndex::Factor& factor = components.factor(k);
         const float squared = factor.squaredMahalanobis(p.data());
-        if (!(squared <= kSigmas * kSigmas)) return;
-        // Within kSigmas of a component, densities are far from the ends of a double.
+        if (!(squared <= kKnownSigmas * kKnownSigmas)) return;
+        // Within kKnownSigmas of a component, densities are far from the ends of a double.
         const double logDensity = double(factor.logNormalizer()) - 0.5 * double(squared);
         visit(k, double(mixture_.places().support[k]) * std::exp(logDensity));
     });

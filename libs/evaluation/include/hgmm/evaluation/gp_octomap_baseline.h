@@ -43,6 +43,9 @@ struct GpOctomapParams {
 
     /// The defaults for a resolution [m]: the lengths grow with it.
     static GpOctomapParams atResolution(double resolution_m);
+    /// What the paper's published code uses at a resolution [m], where it differs: coarser
+    /// samples, evidence that saturates early, voxels that merge early.
+    static GpOctomapParams asPublished(double resolution_m);
     /// Throws std::invalid_argument naming the field.
     void validate() const;
 };
