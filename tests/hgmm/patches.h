@@ -60,7 +60,8 @@ inline void tile(const Eigen::Vector3d& centre, const Eigen::Vector3d& a,
     const Eigen::Vector3d ua = a.normalized(), ub = b.normalized();
     for (double x = -a.norm() + edge_m / 2; x < a.norm(); x += edge_m)
         for (double y = -b.norm() + edge_m / 2; y < b.norm(); y += edge_m)
-            mixture.pushBack(patch(centre + (x + edge_m * (unitUniform(random) - 0.5)) * ua +
+            mixture.pushBack(patch(centre +
+                                       (x + edge_m * (unitUniform(random) - 0.5)) * ua +
                                        (y + edge_m * (unitUniform(random) - 0.5)) * ub,
                                    ua.cross(ub), edge_m));
 }

@@ -18,7 +18,7 @@ using mrpt::math::TPoint3D;
 
 constexpr int kCols = 120, kRows = 90;
 
-const std::vector<float>& channel(const hgmm::Scan& scan, const std::string& name) {
+const std::vector<float>& channelOf(const hgmm::Scan& scan, const std::string& name) {
     for (const auto& c : scan.channels)
         if (c.name == name) return c.values;
     throw std::runtime_error("no channel " + name);
@@ -63,7 +63,8 @@ bool isInside(double col, double row) {
 template <typename Expected>
 std::size_t expectColours(const mrpt::obs::CObservation3DRangeScan& o,
                           const hgmm::Scan& scan, Expected expected) {
-    const auto &r = channel(scan, "r"), &g = channel(scan, "g"), &b = channel(scan, "b");
+    const auto &r = channelOf(scan, "r"), &g = channelOf(scan, "g"),
+               &b = channelOf(scan, "b");
     std::size_t coloured = 0;
     for (std::size_t i = 0; i < scan.size(); ++i) {
         const mrpt::img::TPixelCoordf pixel = expected(inColourCamera(o, scan, i));
@@ -125,7 +126,7 @@ TEST(ImageColour, DistortionThatTurnsBackGivesNoColour) {
     o->cameraParams.fx(25);
     o->cameraParams.fy(25);
     const auto scan = observationToScan(*o);
-    const auto& r = channel(*scan, "r");
+    const auto& r = channelOf(*scan, "r");
     std::size_t beyond = 0;
     for (std::size_t i = 0; i < scan->size(); ++i) {
         const TPoint3D p = inColourCamera(*o, *scan, i);
@@ -148,7 +149,7 @@ TEST(ImageColour, PointsBehindNearerOnesHaveNoColour) {
     o->relativePoseIntensityWRTDepth =
         mrpt::poses::CPose3D(0, 0.1, 0, -M_PI / 2, 0, -M_PI / 2);
     const auto scan = observationToScan(*o);
-    const auto& r = channel(*scan, "r");
+    const auto& r = channelOf(*scan, "r");
     // The pole spans these y [m] at 1 m; from y = .1 its shadow on the wall spans 2 y - .1.
     const double left = (31.0 - 27.5) / 60, right = (31.0 - 35.5) / 60;
     const double edge_m = 4 * 2.0 / 100;  // four pixels of the image at 2 m
@@ -192,10 +193,10 @@ TEST(ImageColour, GreyImagesOfOtherCamerasAreIntensity) {
             o->intensityImage.at<uint8_t>(col, row) = static_cast<uint8_t>(2 * col);
     const auto scan = observationToScan(*o);
     ASSERT_EQ(scan->channels.size(), 1U);
-    const auto& grey = channel(*scan, "intensity");
+    const auto& grey = channelOf(*scan, "intensity");
     o->intensityImage = colour;
     const auto coloured = observationToScan(*o);
-    const auto& r = channel(*coloured, "r");
+    const auto& r = channelOf(*coloured, "r");
     for (std::size_t i = 0; i < scan->size(); ++i) {
         ASSERT_EQ(std::isfinite(grey[i]), std::isfinite(r[i]));
         if (!std::isfinite(r[i])) continue;
@@ -218,9 +219,9 @@ TEST(ImageColour, PointsWithoutPixelNumbersAreProjected) {
         mrpt::poses::CPose3D(0, 0, 0, -M_PI / 2, 0, -M_PI / 2);
     const auto scan = observationToScan(*o);
     ASSERT_EQ(scan->size(), 2U);
-    EXPECT_NEAR(channel(*scan, "r")[0] * 255 / 2, 58 + 100 * 0.25, 0.51);
-    EXPECT_NEAR(channel(*scan, "g")[0] * 255 / 2, 47 - 103 * 0.1, 0.51);
-    EXPECT_TRUE(std::isnan(channel(*scan, "r")[1])) << "behind the camera";
+    EXPECT_NEAR(channelOf(*scan, "r")[0] * 255 / 2, 58 + 100 * 0.25, 0.51);
+    EXPECT_NEAR(channelOf(*scan, "g")[0] * 255 / 2, 47 - 103 * 0.1, 0.51);
+    EXPECT_TRUE(std::isnan(channelOf(*scan, "r")[1])) << "behind the camera";
 }
 
 }  // namespace

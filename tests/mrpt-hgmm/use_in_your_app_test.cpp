@@ -81,20 +81,20 @@ class UseInYourApp : public ::testing::Test {
     const fs::path folder;
 };
 
-const std::string kData = observations::datasets();
+const std::string kDatasets = observations::datasets();
 /// Paths of the data, and no windows.
 const std::string kLocalizationHere =
-    "\n[LocalizationExperiment]\nrawlog_file = " + kData +
-    "localization_demo.rawlog\nmap_file = " + kData +
+    "\n[LocalizationExperiment]\nrawlog_file = " + kDatasets +
+    "localization_demo.rawlog\nmap_file = " + kDatasets +
     "localization_demo.simplemap.gz\n3DSceneFrequency = -1\n"
     "SHOW_PROGRESS_3D_REAL_TIME = false\n";
 const std::string kMappingHere =
-    "\n[MappingApplication]\nrawlog_file = " + kData +
+    "\n[MappingApplication]\nrawlog_file = " + kDatasets +
     "2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog\n"
     "SAVE_3D_SCENE = 0\nSHOW_PROGRESS_3D_REAL_TIME = 0\nSHOW_PROGRESS_IN_WINDOW = 0\n"
     "SAVE_MAP_IMAGES = 0\nLOG_FREQUENCY = 1000\n";
 const std::string kObservationsToMap =
-    "observations2map my.ini '" + kData + "localization_demo.simplemap.gz' out";
+    "observations2map my.ini '" + kDatasets + "localization_demo.simplemap.gz' out";
 
 #ifdef HGMM_ASAN_RUNTIME
 /// Sanitized, few particles must do.

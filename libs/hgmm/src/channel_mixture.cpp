@@ -47,7 +47,8 @@ void ChannelMixture::set(std::size_t i, const ChannelGaussian& component) {
     for (std::size_t c = 0; c < fits_.size(); ++c) {
         const ChannelFit& fit = component.fits[c];
         fits_[c].mean[i] = static_cast<float>(fit.mean);
-        fits_[c].residual[i] = static_cast<float>(std::max(fit.residual, kLeastFitVariance));
+        fits_[c].residual[i] =
+            static_cast<float>(std::max(fit.residual, kLeastFitVariance));
         for (int d = 0; d < 3; ++d) fits_[c].slope[d][i] = static_cast<float>(fit.slope[d]);
     }
 }
