@@ -26,7 +26,7 @@ using Clock = std::chrono::steady_clock;
 using Names = std::vector<std::string>;
 
 constexpr std::size_t kSingleScans = 10;
-constexpr std::size_t kTestPointsOfRun = 300000;
+constexpr std::size_t kTestPointsOfRun = 200000, kTestPointsOfScan = 20000;
 
 bool hasChannel(const hgmm::Scan& scan, const std::string& name) {
     return std::any_of(scan.channels.begin(), scan.channels.end(),
@@ -147,7 +147,11 @@ class ModalityTrial {
 
     void studyScan(const SplitScan& parts, std::size_t scanIndex) {
         ModalityPoints test{findings_.names, {}, {}};
-        appendMeasured(parts.heldOut, allOf(parts.heldOut), test);
+        appendMeasured(
+            parts.heldOut,
+            chooseIndices(parts.heldOut.size(), kTestPointsOfScan, findings_.run.split.seed,
+                          scanIndex, Draw::modalityQueries),
+            test);
         if (test.size() == 0) return;
         ModalityMapResult result = evaluateModalities(mapOf(parts.mapping), test);
         result.scan = scanIndex;
