@@ -11,7 +11,7 @@ namespace hgmm {
 namespace {
 
 /// Candidate places of each prior [count]: bounds the cost of a query.
-constexpr std::size_t kPlacesPerPrior = 4;
+constexpr std::size_t kPlacesPerPrior = 3;
 
 /// Priors of one group, whose densities at a place are found together.
 struct GroupPriors {

@@ -72,11 +72,12 @@ std::vector<std::uint32_t> assignKnown(const std::array<std::vector<float>, 3>& 
 
 /// Known samples by component, then novel ones by cell, both in order of first appearance.
 std::vector<LinearRegion> regionsOf(const std::vector<std::uint32_t>& own,
+                                    std::size_t components,
                                     const std::array<std::vector<float>, 3>& means,
                                     const Eigen::Vector3d& sensorOrigin,
                                     const CellParams& params) {
     std::vector<LinearRegion> regions;
-    std::unordered_map<std::uint32_t, std::uint32_t> ofComponent;
+    std::vector<std::uint32_t> ofComponent(components, LinearRegion::kNone);
     std::vector<std::uint32_t> novel;
     std::array<std::vector<float>, 3> novelMeans;
     for (std::uint32_t i = 0; i < own.size(); ++i) {
@@ -85,13 +86,13 @@ std::vector<LinearRegion> regionsOf(const std::vector<std::uint32_t>& own,
             for (int d = 0; d < 3; ++d) novelMeans[d].push_back(means[d][i]);
             continue;
         }
-        const auto [entry, isNew] =
-            ofComponent.try_emplace(own[i], static_cast<std::uint32_t>(regions.size()));
-        if (isNew) {
+        std::uint32_t& region = ofComponent[own[i]];
+        if (region == LinearRegion::kNone) {
+            region = static_cast<std::uint32_t>(regions.size());
             regions.emplace_back();
             regions.back().component = own[i];
         }
-        regions[entry->second].samples.push_back(i);
+        regions[region].samples.push_back(i);
     }
     const std::vector<LatticeCell> cells = assignCells(novelMeans, sensorOrigin, params);
     std::unordered_map<LatticeCell, std::uint32_t, LatticeCellHash> ofCell;
@@ -126,7 +127,7 @@ void ModalityGroup::insert(const ChannelSamples& samples, const Pose& T_local_se
     const auto own =
         assignKnown(means, mixture_.places(), index, params.novelty.maxMahalanobis);
     std::vector<LinearRegion> regions =
-        regionsOf(own, means, T_local_sensor.t, params.cells);
+        regionsOf(own, mixture_.size(), means, T_local_sensor.t, params.cells);
     const Pose T_sensor_local = T_local_sensor.inverse();
     for (LinearRegion& region : regions)
         if (region.component != LinearRegion::kNone)
