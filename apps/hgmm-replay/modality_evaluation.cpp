@@ -44,10 +44,10 @@ hgmm::Map savedAndLoaded(const hgmm::Map& map) {
     return hgmm::Map::load(bytes.data(), bytes.size());
 }
 
-ModalityMapResult evaluateModalities(const hgmm::Map& map, const ModalityPoints& test) {
+ModalityMapResult evaluateModalities(const hgmm::Map& map, const ModalityPoints& test,
+                                     const ModalityEstimates& estimates) {
     ModalityMapResult result;
     result.mapBytes = map.save().size();
-    const auto estimates = estimatesAt(map, test);
     for (std::size_t i = 0; i < test.names.size(); ++i) {
         ModalityResult of;
         of.name = test.names[i];

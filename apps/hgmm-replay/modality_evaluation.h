@@ -44,8 +44,10 @@ ModalityEstimates estimatesAt(const hgmm::Map& map,
 hgmm::Map savedAndLoaded(const hgmm::Map& map);
 
 /// Reconstruction at held-out points, and sizes; no cross-modal results.
+/// @param estimates of the map at the test points
 ModalityMapResult evaluateModalities(const hgmm::Map& map,
-                                     const hgmm::evaluation::ModalityPoints& test);
+                                     const hgmm::evaluation::ModalityPoints& test,
+                                     const ModalityEstimates& estimates);
 
 /// Inference of modality number `target` from the others at the first points of `test`, of
 /// which there must be one.

@@ -26,7 +26,7 @@ using Clock = std::chrono::steady_clock;
 using Names = std::vector<std::string>;
 
 constexpr std::size_t kSingleScans = 10;
-constexpr std::size_t kTestPointsOfRun = 300000;
+constexpr std::size_t kTestPointsOfRun = 200000, kTestPointsOfScan = 20000;
 
 bool hasChannel(const hgmm::Scan& scan, const std::string& name) {
     return std::any_of(scan.channels.begin(), scan.channels.end(),
@@ -86,7 +86,8 @@ class ModalityTrial {
                 ": has neither colours nor intensities, or not those that --config names");
         run.pointsPerScan = double(points_) / double(run.scansMapped);
         const hgmm::Map map = savedAndLoaded(coloured_->model());
-        findings_.sequence = evaluateModalities(map, test_);
+        estimates_ = estimatesAt(map, test_);
+        findings_.sequence = evaluateModalities(map, test_, estimates_);
         if (test_.names.size() > 1)
             findings_.query_us =
                 inferAt(map, shuffled(test_, run.split.seed), test_.names.size() - 1)
@@ -104,10 +105,8 @@ class ModalityTrial {
         map->insertScan(scan);
         return viewOf(savedAndLoaded(map->model()), scan);
     }
-    /// Test points of all scans by the map of all.
-    ModalityView viewOfSequence() const {
-        return {test_, estimatesAt(savedAndLoaded(coloured_->model()), test_)};
-    }
+    /// Test points of all scans by the map of all; after finish().
+    ModalityView viewOfSequence() const { return {test_, estimates_}; }
 
  private:
     bool chooseNames(const hgmm::Scan& scan) {
@@ -147,9 +146,14 @@ class ModalityTrial {
 
     void studyScan(const SplitScan& parts, std::size_t scanIndex) {
         ModalityPoints test{findings_.names, {}, {}};
-        appendMeasured(parts.heldOut, allOf(parts.heldOut), test);
+        appendMeasured(
+            parts.heldOut,
+            chooseIndices(parts.heldOut.size(), kTestPointsOfScan, findings_.run.split.seed,
+                          scanIndex, Draw::modalityQueries),
+            test);
         if (test.size() == 0) return;
-        ModalityMapResult result = evaluateModalities(mapOf(parts.mapping), test);
+        const hgmm::Map map = mapOf(parts.mapping);
+        ModalityMapResult result = evaluateModalities(map, test, estimatesAt(map, test));
         result.scan = scanIndex;
         if (findings_.names.size() > 1) {
             const std::uint64_t seed = findings_.run.split.seed;
@@ -175,6 +179,7 @@ class ModalityTrial {
     std::size_t points_ = 0;
     std::unique_ptr<mrpt::maps::CHGMMOccupancyMap> coloured_, plain_;
     ModalityPoints test_;
+    ModalityEstimates estimates_;  // at test_, by the map of all scans
     hgmm::Scan middle_;
     ModalityFindings findings_;
 };
@@ -187,11 +192,11 @@ void writeModalityReport(const ModalityTrial& study, const ModalityFindings& fin
     const ModalityView sequence = study.viewOfSequence();
     writePng(reconstructionPicture(sequence, view), folder + "/table5.1.png");
     writePng(variancePicture(sequence, view), folder + "/table5.1_variance.png");
-    if (sensor != SensorKind::depthCamera) return;
+    const ModalityView scan = study.viewOfScan();
+    if (sensor != SensorKind::depthCamera || scan.points.size() == 0) return;
     View ahead;  // as the camera sees it
     ahead.yaw_deg = ahead.pitch_deg = 0.0;
     ahead.width_px = view.width_px;
-    const ModalityView scan = study.viewOfScan();
     writePng(reconstructionPicture(scan, ahead), folder + "/table5.1_scan.png");
     writePng(variancePicture(scan, ahead), folder + "/table5.1_scan_variance.png");
 }

@@ -5,9 +5,11 @@
 #include <cstdlib>
 #include <fstream>
 #include <iomanip>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "coloured_wall.h"
 #include "edited_options.h"
 #include "observations.h"
 
@@ -18,8 +20,9 @@ namespace {
 
 // A map saved by a release must load for ever and give the answers noted beside it: the
 // number of components, then lines "x y z log-density", and from version 1 on, which has
-// free space, "P(occ) P(free)" behind them. To write those of today's version anew, before
-// it was released only, run these tests with HGMM_WRITE_GOLDEN=1.
+// free space, "P(occ) P(free)" behind them, and from version 2 on, which has modalities,
+// the means of r, g and b. To write those of today's version anew, before it was released
+// only, run these tests with HGMM_WRITE_GOLDEN=1.
 const std::string kData = HGMM_TEST_DATA "/";
 
 CHGMMOccupancyMap load(const std::string& name) {
@@ -41,22 +44,27 @@ std::vector<Eigen::Vector3d> pointsOf(const hgmm::Map& map) {
     return points;
 }
 
+const char* const kColours[] = {"r", "g", "b"};
+
 void writeGolden() {
     CHGMMOccupancyMap map;
+    map.insertionOptions.params.modalities = {"r", "g", "b"};
     map.insertObservation(*observations::laser(), CPose3D(10, -5, 0.3, 0.2, 0, 0));
     map.insertObservation(*observations::rotating(16, 91), CPose3D(10, -5, 0.3, 0.2, 0, 0));
-    map.insertObservation(*observations::cloud(), CPose3D(12, -5, 0.3, 1.2, 0, 0));
+    map.insertObservation(*coloured_wall::colours(), CPose3D(12, -5, 0.3, 1.2, 0, 0));
     edited::change(map);
-    map.saveToFile(kData + "map_v1.hgmm");
+    map.saveToFile(kData + "map_v2.hgmm");
 
-    const CHGMMOccupancyMap saved = load("map_v1.hgmm");
+    const CHGMMOccupancyMap saved = load("map_v2.hgmm");
     const hgmm::Map& model = saved.model();
-    std::ofstream answers(kData + "map_v1.txt");
+    std::ofstream answers(kData + "map_v2.txt");
     answers << model.mixture().size() << "\n" << std::setprecision(17);
     for (const Eigen::Vector3d& p : pointsOf(model)) {
         const hgmm::Occupancy occupancy = model.occupancy(p);
         answers << p.x() << " " << p.y() << " " << p.z() << " " << model.logDensity(p)
-                << " " << occupancy.occupied << " " << occupancy.free << "\n";
+                << " " << occupancy.occupied << " " << occupancy.free;
+        for (const char* name : kColours) answers << " " << model.modality(name, p).mean;
+        answers << "\n";
     }
 }
 
@@ -124,16 +132,14 @@ TEST(GoldenFile, MapOfVersion0GoesOn) {
     EXPECT_FALSE(map.model().freeMixture().empty());
 }
 
-TEST(GoldenFile, MapOfVersion1LoadsAndAnswersAsEver) {
-    if (std::getenv("HGMM_WRITE_GOLDEN")) writeGolden();
-    const CHGMMOccupancyMap map = load("map_v1.hgmm");
-    const auto answers = readAnswers("map_v1.txt", map.model());
+/// Log-densities and occupancies, of which some must be occupied and some free.
+void expectOccupancies(const hgmm::Map& map,
+                       const std::vector<std::vector<double>>& answers) {
     int occupied = 0, free = 0;
     for (const auto& answer : answers) {
-        ASSERT_EQ(answer.size(), 6U);
-        expectLogDensity(map.model(), answer);
-        const hgmm::Occupancy got =
-            map.model().occupancy({answer[0], answer[1], answer[2]});
+        ASSERT_GE(answer.size(), 6U);
+        expectLogDensity(map, answer);
+        const hgmm::Occupancy got = map.occupancy({answer[0], answer[1], answer[2]});
         EXPECT_NEAR(got.occupied, answer[4], 1e-3);
         EXPECT_NEAR(got.free, answer[5], 1e-3);
         occupied += answer[4] > 0.5 ? 1 : 0;
@@ -141,6 +147,11 @@ TEST(GoldenFile, MapOfVersion1LoadsAndAnswersAsEver) {
     }
     EXPECT_GE(occupied, 5);
     EXPECT_GE(free, 5);
+}
+
+TEST(GoldenFile, MapOfVersion1LoadsAndAnswersAsEver) {
+    const CHGMMOccupancyMap map = load("map_v1.hgmm");
+    expectOccupancies(map.model(), readAnswers("map_v1.txt", map.model()));
 
     CHGMMOccupancyMap wanted;
     // Of the defaults when the file was written; later ones do not change it.
@@ -149,6 +160,27 @@ TEST(GoldenFile, MapOfVersion1LoadsAndAnswersAsEver) {
     // Version 1 had no modalities.
     wanted.insertionOptions.params.modalities.clear();
     wanted.renderOptions.modality.clear();
+    EXPECT_EQ(edited::all(map), edited::all(wanted));
+}
+
+TEST(GoldenFile, MapOfVersion2LoadsAndAnswersAsEver) {
+    if (std::getenv("HGMM_WRITE_GOLDEN")) writeGolden();
+    const CHGMMOccupancyMap map = load("map_v2.hgmm");
+    const auto answers = readAnswers("map_v2.txt", map.model());
+    expectOccupancies(map.model(), answers);
+    std::set<double> reds;
+    for (const auto& answer : answers) {
+        ASSERT_EQ(answer.size(), 9U);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(
+                map.model().modality(kColours[c], {answer[0], answer[1], answer[2]}).mean,
+                answer[6 + c], 1e-3);
+        reds.insert(answer[6]);
+    }
+    EXPECT_GE(reds.size(), 3U);
+
+    CHGMMOccupancyMap wanted;
+    edited::change(wanted);
     EXPECT_EQ(edited::all(map), edited::all(wanted));
 }
 

@@ -36,9 +36,10 @@ std::string trimmed(std::string text) {
     return text;
 }
 
-/// A value without the comment that may follow it; MRPT itself strips only "//".
+/// A value without the comment that may follow it; MRPT itself strips only "//", and not
+/// where there is no value.
 std::string withoutComment(const std::string& text) {
-    return trimmed(text.substr(0, text.find_first_of(";#")));
+    return trimmed(text.substr(0, std::min(text.find_first_of(";#"), text.find("//"))));
 }
 
 /// Whether the whole text is a number of this type, in the C locale.
