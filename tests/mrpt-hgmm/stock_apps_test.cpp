@@ -5,8 +5,10 @@
 #include <mrpt/poses/CPose2D.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <cmath>
 #include <cstdio>
 #include <regex>
+#include <vector>
 
 #include "observations.h"
 #include "stock_app.h"
@@ -90,6 +92,36 @@ TEST_F(StockApps, LocalizationOnAMapFromASimpleMapEndsAtThePublishedPose) {
         if (error_m < 0.3 && error_deg < 3) ++good;
     }
     EXPECT_GE(good, 2) << "of " << runs;
+}
+
+// The repetitions run at the same time, in threads that share one map. They also share the
+// reader of the log, so that each gets but some of the observations, as the scheduler
+// likes: what they find cannot be told, only that all observations were used and nothing
+// broke.
+TEST_F(StockApps, LocalizationRepetitionsShareOneMap) {
+    constexpr int repetitions = 4;
+    edit("pf-localization.ini", "experimentRepetitions *=.*",
+         "experimentRepetitions = " + std::to_string(repetitions));
+    edit("pf-localization.ini", "particles_count *=.*", "particles_count = 5000");
+    edit("pf-localization.ini", "KLD_minSampleSize *=.*", "KLD_minSampleSize = 500");
+    edit("pf-localization.ini", "KLD_maxSampleSize *=.*", "KLD_maxSampleSize = 5000");
+    const auto result = stock_app::run("pf-localization pf-localization.ini", folder);
+    ASSERT_EQ(result.exitCode, 0) << tail(result.output);
+
+    int estimates = 0;
+    const std::string label = "PDF estimation: ";
+    for (auto at = result.output.find(label); at != std::string::npos;
+         at = result.output.find(label, at + 1), ++estimates) {
+        const CPose2D pose = lastPose(result.output.substr(at, 200), label);
+        EXPECT_LT(std::hypot(pose.x(), pose.y()), 100) << result.output.substr(at, 80);
+    }
+    EXPECT_GT(estimates, 30);
+    std::vector<CHGMMOccupancyMap> maps;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.path().extension() == ".hgmm")
+            maps.emplace_back().loadFromFile(entry.path().string());
+    ASSERT_EQ(maps.size(), std::size_t(repetitions));
+    for (const CHGMMOccupancyMap& map : maps) EXPECT_EQ(map.model(), maps[0].model());
 }
 
 TEST_F(StockApps, LocalizationStartsFromASavedMap) {
