@@ -1,12 +1,15 @@
 #include <gtest/gtest.h>
 #include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/maps/CHGMMOccupancyMap.h>
+#include <mrpt/math/wrap2pi.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/poses/CPose2D.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <cmath>
 #include <cstdio>
 #include <regex>
+#include <vector>
 
 #include "observations.h"
 #include "stock_app.h"
@@ -92,6 +95,36 @@ TEST_F(StockApps, LocalizationOnAMapFromASimpleMapEndsAtThePublishedPose) {
     EXPECT_GE(good, 2) << "of " << runs;
 }
 
+// The repetitions run at the same time, in threads that share one map. They also share the
+// reader of the log, so that each gets but some of the observations, as the scheduler
+// likes: what they find cannot be told, only that all observations were used and nothing
+// broke.
+TEST_F(StockApps, LocalizationRepetitionsShareOneMap) {
+    constexpr int repetitions = 4;
+    edit("pf-localization.ini", "experimentRepetitions *=.*",
+         "experimentRepetitions = " + std::to_string(repetitions));
+    edit("pf-localization.ini", "particles_count *=.*", "particles_count = 5000");
+    edit("pf-localization.ini", "KLD_minSampleSize *=.*", "KLD_minSampleSize = 500");
+    edit("pf-localization.ini", "KLD_maxSampleSize *=.*", "KLD_maxSampleSize = 5000");
+    const auto result = stock_app::run("pf-localization pf-localization.ini", folder);
+    ASSERT_EQ(result.exitCode, 0) << tail(result.output);
+
+    int estimates = 0;
+    const std::string label = "PDF estimation: ";
+    for (auto at = result.output.find(label); at != std::string::npos;
+         at = result.output.find(label, at + 1), ++estimates) {
+        const CPose2D pose = lastPose(result.output.substr(at, 200), label);
+        EXPECT_LT(std::hypot(pose.x(), pose.y()), 100) << result.output.substr(at, 80);
+    }
+    EXPECT_GT(estimates, 30);
+    std::vector<CHGMMOccupancyMap> maps;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.path().extension() == ".hgmm")
+            maps.emplace_back().loadFromFile(entry.path().string());
+    ASSERT_EQ(maps.size(), std::size_t(repetitions));
+    for (const CHGMMOccupancyMap& map : maps) EXPECT_EQ(map.model(), maps[0].model());
+}
+
 TEST_F(StockApps, LocalizationStartsFromASavedMap) {
     const auto mapping =
         stock_app::run("observations2map observations2map.ini " +
@@ -117,22 +150,28 @@ TEST_F(StockApps, LocalizationStartsFromASavedMap) {
         << tail(result.output);
 }
 
-// Odometry alone ends 8.8 m away. With the standard proposal, which matches no scans, runs
-// of other seeds and particle counts end 0.6 to 3.5 m away. Sanitized, a few particles must
-// do: they show that the program runs clean, not where it ends.
+// Where direct matching of the second pass through the corridor with the first puts the
+// end; odometry alone ends 9.4 m away. Most runs of other seeds end 0.4 m away.
+// Sanitized, a few particles must do: they show that the program runs clean, not where it
+// ends.
 TEST_F(StockApps, ParticleFilterSlamClosesTheLoop) {
 #ifdef HGMM_ASAN_RUNTIME
-    constexpr double limit_m = 8.8;
-    edit("rbpf-slam.ini", "sampleSize *=.*", "sampleSize = 5");
+    constexpr double limit_m = 9.4, limit_deg = 180;
+    edit("rbpf-slam.ini", "sampleSize *=.*", "sampleSize = 3");
+    edit("rbpf-slam.ini", "MaximumSearchSamples *=.*", "MaximumSearchSamples = 5");
 #else
-    constexpr double limit_m = 3.0;
+    constexpr double limit_m = 0.8, limit_deg = 5;
 #endif
     const auto result = stock_app::run("rbpf-slam rbpf-slam.ini", folder);
     ASSERT_EQ(result.exitCode, 0) << tail(result.output);
     const CPose2D pose = lastPose(result.output, "(x,y,z,yaw,pitch,roll)=");
-    const double error_m = std::hypot(pose.x() - 3.4548, pose.y() + 18.0399);
-    std::cout << "final pose " << pose << ": " << error_m << " m\n";
+    const double error_m = std::hypot(pose.x() - 4.23, pose.y() + 18.46);
+    const double error_deg =
+        std::abs(mrpt::RAD2DEG(mrpt::math::wrapToPi(pose.phi() - mrpt::DEG2RAD(-87.7))));
+    std::cout << "final pose " << pose << ": " << error_m << " m, " << error_deg
+              << " deg\n";
     EXPECT_LT(error_m, limit_m);
+    EXPECT_LT(error_deg, limit_deg);
     EXPECT_GT(savedMap().model().mixture().size(), 100U);
 }
 
