@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace hgmm {
 namespace {
@@ -22,23 +26,139 @@ Mixture<3> wallAndPost() {
     return mixture;
 }
 
-TEST(SurfaceLikelihood, IsItsFormula) {
-    const double softening = 0.1, outliers = 0.05;
-    const Mixture<3> mixture = wallAndPost();
-    const SurfaceLikelihood likelihood(mixture, softening, outliers);
-    for (double x = -0.5; x < 1.5; x += 0.05) {
-        const double wall = x * x / (0.0001 + 0.01),
-                     post = (x - 1) * (x - 1) / (0.01 + 0.01);
-        double squared = std::min(wall, post);
-        // Components are left out beyond the index' reach, where they add less than the
-        // floor.
-        if (squared > 16) squared = 1e9;
-        const double expected =
-            std::log(outliers + (1 - outliers) * std::exp(-0.5 * squared));
-        EXPECT_NEAR(likelihood(float(x), 0.F, 0.F), expected, 2e-2) << "x = " << x;
-        EXPECT_NEAR(likelihood(float(x), 0.F, 0.F), expected,
-                    std::abs(squared - 16) < 2 ? 2e-2 : 1e-3);
+/// Sum over the axes of one patch, by minimising over a fine grid of points on it.
+double squaredDistance(const Gaussian<3>& g, const Eigen::Vector3d& point,
+                       double softening) {
+    const Eigen::Matrix3d covariance = g.covariance;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+    const Eigen::Matrix3d axes = solver.eigenvectors();
+    const Eigen::Vector3d edges = (3 * solver.eigenvalues()).cwiseSqrt();
+    const double s2 = softening * softening;
+    Eigen::Vector3d variance;
+    for (int a = 0; a < 3; ++a) {
+        const double h2 = a == 0 ? 0.0 : edges[a] * edges[a];
+        variance[a] = solver.eigenvalues()[0] + s2 * std::pow(s2 / (s2 + h2), 2);
     }
+    double best = std::numeric_limits<double>::infinity();
+    constexpr int steps = 100;
+    for (int u = -steps; u <= steps; ++u)
+        for (int v = -steps; v <= steps; ++v) {
+            const Eigen::Vector3d onPatch = g.mean + u * edges[1] / steps * axes.col(1) +
+                                            v * edges[2] / steps * axes.col(2);
+            const Eigen::Vector3d apart = axes.transpose() * (point - onPatch);
+            best = std::min(best, apart.cwiseAbs2().cwiseQuotient(variance).sum());
+        }
+    return best;
+}
+
+Mixture<3> tiltedPatches(int n, unsigned seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    const auto vector = [&] {
+        return Eigen::Vector3d(normal(random), normal(random), normal(random));
+    };
+    Mixture<3> mixture;
+    for (int i = 0; i < n; ++i) {
+        const Eigen::Matrix3d axes = Eigen::Quaterniond(normal(random), normal(random),
+                                                        normal(random), normal(random))
+                                         .normalized()
+                                         .toRotationMatrix();
+        Gaussian<3> g;
+        g.support = 1 + i;
+        g.mean = vector();
+        const Eigen::Vector3d sigma(0.01, 0.1, 0.2 + 0.1 * (i % 3));
+        g.covariance = axes * sigma.cwiseAbs2().asDiagonal() * axes.transpose();
+        mixture.pushBack(g);
+    }
+    return mixture;
+}
+
+TEST(SurfaceLikelihood, IsItsFormula) {
+    const Mixture<3> mixture = tiltedPatches(8, 1);
+    std::mt19937 random(2);
+    std::normal_distribution<double> normal(0, 0.15);
+    int onIt = 0, beside = 0;
+    for (const double outliers : {0.05, 0.5}) {
+        const SurfaceLikelihood likelihood(mixture, 0.1, outliers);
+        for (std::size_t i = 0; i < 80; ++i) {
+            const Eigen::Vector3d p =
+                mixture[i % 8].mean +
+                Eigen::Vector3d(normal(random), normal(random), normal(random));
+            double squared = std::numeric_limits<double>::infinity();
+            for (std::size_t j = 0; j < 8; ++j)
+                squared = std::min(squared, squaredDistance(mixture[j], p, 0.1));
+            const double expected = outliers + (1 - outliers) * std::exp(-0.5 * squared);
+            const Eigen::Vector3f f = p.cast<float>();
+            const double actual = likelihood.probability(f.x(), f.y(), f.z());
+            // What is left out, and the grid of the oracle.
+            EXPECT_NEAR(actual, expected, 0.02 * outliers + 0.01) << squared;
+            EXPECT_DOUBLE_EQ(likelihood(f.x(), f.y(), f.z()), std::log(actual));
+            if (squared < 1) ++onIt;
+            if (squared > 4 && squared < 25) ++beside;
+        }
+    }
+    EXPECT_GT(onIt, 20);
+    EXPECT_GT(beside, 10);
+}
+
+// Gaussians in place of patches would fall to a fifth halfway between two of them.
+TEST(SurfaceLikelihood, IsTheSameAllAlongAWallOfPieces) {
+    Mixture<3> wall;
+    const double length = 0.5;
+    for (int i = 0; i < 20; ++i) {
+        Gaussian<3> piece;
+        piece.support = 10;
+        piece.mean << i * length, 0, 0;
+        piece.covariance.diagonal() << length * length / 12, 1e-4, 1e-4;
+        wall.pushBack(piece);
+    }
+    const SurfaceLikelihood likelihood(wall, 0.1, 0.05);
+    for (const float y : {0.F, 0.05F, 0.15F}) {
+        const double expected = likelihood(0, y, 0);
+        for (float x = 0; x < 9.5F; x += 0.037F)
+            EXPECT_NEAR(likelihood(x, y, 0), expected, 1e-4) << x << " " << y;
+    }
+}
+
+// Points of a wall's next piece, not mapped yet, must not be drawn back to the end of what
+// is mapped.
+TEST(SurfaceLikelihood, EndsOfLongPiecesAreSharp) {
+    Mixture<3> wall;
+    Gaussian<3> piece;
+    piece.support = 10;
+    piece.covariance.diagonal() << 0.25 / 3, 1e-4, 1e-4;  // from -0.5 to 0.5
+    wall.pushBack(piece);
+    const SurfaceLikelihood likelihood(wall, 0.1, 0.05);
+    EXPECT_NEAR(likelihood(0.49F, 0, 0), 0, 1e-3);
+    EXPECT_NEAR(likelihood(0.55F, 0, 0), std::log(0.05), 0.03);
+    // Across it, and above the line that a planar laser draws, all of the softening counts.
+    for (const double off : {0.05, 0.1}) {
+        const double expected = std::log(0.05 + 0.95 * std::exp(-50 * off * off));
+        EXPECT_NEAR(likelihood(0, float(off), 0), expected, 0.15);
+        EXPECT_NEAR(likelihood(0, 0, float(off)), expected, 0.15);
+    }
+}
+
+TEST(SurfaceLikelihood, UpdatedIsTheSameAsMadeAnew) {
+    std::mt19937 random(5);
+    std::normal_distribution<float> normal;
+    Mixture<3> mixture = tiltedPatches(60, 3);
+    SurfaceLikelihood followed(mixture, 0.1, 0.1);
+    for (int step = 0; step < 40; ++step) {
+        if (step % 3 == 0) mixture.removeSwap(random() % mixture.size());
+        if (step % 4 == 0) mixture.append(tiltedPatches(2, unsigned(100 + step)));
+        if (step % 10 == 9) mixture = tiltedPatches(30 + step, unsigned(step));
+        mixture.mean[step % 3][random() % mixture.size()] += 0.1F;
+        mixture.covariance[0][random() % mixture.size()] *= 1.5F;
+        followed.update(mixture);
+        const SurfaceLikelihood fresh(mixture, 0.1, 0.1);
+        for (int i = 0; i < 300; ++i) {
+            const float x = normal(random), y = normal(random), z = normal(random);
+            ASSERT_EQ(followed.probability(x, y, z), fresh.probability(x, y, z)) << step;
+        }
+    }
+    followed.update({});
+    EXPECT_EQ(followed.probability(0, 0, 0), 0.1);
 }
 
 TEST(SurfaceLikelihood, DoesNotDependOnSupportOrSizeOfTheMap) {

@@ -81,6 +81,10 @@ TEST(Likelihood, UsesAtMostMaxPointsInRange) {
         EXPECT_NEAR(map.computeObservationLikelihood(*scan, far),
                     std::min(points, 181) * perPoint, 1e-6);
     }
+    // A product of so small factors does not fit a double.
+    map.likelihoodOptions.outlierRatio = 1e-9;
+    EXPECT_NEAR(map.computeObservationLikelihood(*scan, far), 181 * std::log(1e-9), 1e-6);
+    map.likelihoodOptions.outlierRatio = 0.05;
     map.likelihoodOptions.minRange_m = 4.5;  // the room's corners only
     const double corners = map.computeObservationLikelihood(*scan, far) / perPoint;
     EXPECT_GT(corners, 5);
@@ -141,6 +145,30 @@ TEST(Likelihood, CleanUpForgetsObservationsOnly) {
     const double before = map.computeObservationLikelihood(*scan, kTrue);
     map.auxParticleFilterCleanUp();
     EXPECT_EQ(map.computeObservationLikelihood(*scan, kTrue), before);
+}
+
+// Surfaces are brought up to date in place, or copied first where a copy of the map has
+// them, too.
+TEST(Likelihood, CopiesFollowTheirOwnMap) {
+    CHGMMOccupancyMap map = roomMap();
+    const auto scan = observations::laser();
+    const CPose3D moved(0.1, 0.05, 0.2, 0.1, 0, 0);
+    const double before = map.computeObservationLikelihood(*scan, moved);
+    const CHGMMOccupancyMap copy = map;
+    map.insertObservation(*scan, moved);
+    CHGMMOccupancyMap fresh;
+    fresh.model() = map.model();
+    fresh.likelihoodOptions = map.likelihoodOptions;
+    EXPECT_GT(map.computeObservationLikelihood(*scan, moved), before);
+    EXPECT_EQ(map.computeObservationLikelihood(*scan, moved),
+              fresh.computeObservationLikelihood(*scan, moved));
+    EXPECT_EQ(copy.computeObservationLikelihood(*scan, moved), before);
+    // Copied while it is out of date.
+    map.insertObservation(*scan, CPose3D(0.2, 0, 0.2, 0, 0, 0));
+    const CHGMMOccupancyMap late = map;
+    fresh.model() = map.model();
+    EXPECT_EQ(late.computeObservationLikelihood(*scan, moved),
+              fresh.computeObservationLikelihood(*scan, moved));
 }
 
 // pf-localization's repetitions share one map between threads.

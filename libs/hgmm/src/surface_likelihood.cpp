@@ -19,6 +19,14 @@ double reachOf(double outlierRatio) {
     return std::sqrt(2 * std::log(1 + 50 * (1 - outlierRatio) / outlierRatio));
 }
 
+/// Variance that the softening adds along an axis [m^2]: all of it across what is thinner,
+/// next to nothing along what is longer.
+double softening(double halfEdge_m2, double softeningVariance_m2) {
+    if (softeningVariance_m2 == 0) return 0;
+    const double thin = softeningVariance_m2 / (softeningVariance_m2 + halfEdge_m2);
+    return softeningVariance_m2 * thin * thin;
+}
+
 }  // namespace
 
 SurfaceLikelihood::SurfaceLikelihood(const Mixture<3>& mixture, double softeningStd_m,
@@ -56,30 +64,30 @@ void SurfaceLikelihood::enter(const Mixture<3>& mixture, std::uint32_t i) {
     const Eigen::Matrix3d covariance = g.covariance;
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
     solver.computeDirect(covariance);
-    const double s = std::sqrt(
-        std::max(solver.eigenvalues()[0] + softeningVariance_m2_, kMinVariance_m2));
+    const double thickness_m2 = std::max(solver.eigenvalues()[0], kMinVariance_m2);
     Patch patch;
-    BoxIndex::Box box;
-    Eigen::Vector3d half = Eigen::Vector3d::Constant(reach_ * s);
+    Eigen::Vector3d reach = Eigen::Vector3d::Zero();
     for (int a = 0; a < 3; ++a) {
+        const double halfEdge_m2 = a == 0 ? 0.0 : 3 * solver.eigenvalues()[a];
+        const double s =
+            std::sqrt(thickness_m2 + softening(halfEdge_m2, softeningVariance_m2_));
+        const double halfEdge = std::sqrt(std::max(halfEdge_m2, 0.0));
         const Eigen::Vector3d axis = solver.eigenvectors().col(a);
         for (int d = 0; d < 3; ++d) patch.axes[a][d] = static_cast<float>(axis[d] / s);
-        if (a == 0) continue;
-        const double edge = std::sqrt(3 * std::max(0.0, solver.eigenvalues()[a]));
-        patch.halfEdge[a - 1] = static_cast<float>(edge / s);
-        half += edge * axis.cwiseAbs();
+        if (a > 0) patch.halfEdge[a - 1] = static_cast<float>(halfEdge / s);
+        reach += (halfEdge + reach_ * s) * axis.cwiseAbs();
     }
+    BoxIndex::Box box;
     for (int d = 0; d < 3; ++d) {
         patch.mean[d] = box.centre[d] = static_cast<float>(g.mean[d]);
-        box.halfExtent[d] = static_cast<float>(half[d]);
+        box.halfExtent[d] = static_cast<float>(reach[d]);
     }
     if (i == patches_.size()) {
-        patches_.push_back(patch);
-        moments_.push_back(momentsOf(mixture, i));
-    } else {
-        patches_[i] = patch;
-        moments_[i] = momentsOf(mixture, i);
+        patches_.emplace_back();
+        moments_.emplace_back();
     }
+    patches_[i] = patch;
+    moments_[i] = momentsOf(mixture, i);
     boxes_.update(i, box);
 }
 

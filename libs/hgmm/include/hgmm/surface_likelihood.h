@@ -11,13 +11,17 @@ namespace hgmm {
 
 /// How well a measured point agrees with the surfaces of a map, for localisation: with an
 /// outlier floor,
-///   p = outlierRatio + (1 - outlierRatio) max_j exp(-1/2 d_j^2 / s_j^2),
-/// d_j the distance to the patch of component j: the rectangle in its principal plane that
-/// has its variances along the other two axes (half edges of sqrt(3) sigma); s_j^2 its
-/// variance along the normal plus `softeningStd_m`^2. Along a wall, p is the same
-/// everywhere: Gaussians would draw points towards the middle of the pieces that the wall
-/// happens to be cut into. It depends neither on the size of the map nor on how often a
-/// surface was seen, and is comparable between poses.
+///   p = outlierRatio + (1 - outlierRatio) max_j exp(-1/2 d_j^2).
+/// A component counts as a patch: the rectangle in its principal plane that has its
+/// variances there, with half edges h = sqrt(3) sigma. d_j^2 sums, over the principal axes,
+/// the squared distance to the patch over
+///   sigma_normal^2 + softeningStd_m^2 (softeningStd_m^2 / (softeningStd_m^2 + h^2))^2
+/// with h = 0 for the normal. So p is the same all along a wall, where Gaussians would draw
+/// points towards the middles of the pieces that it happens to be cut into; and ends of
+/// long pieces are sharp, as they often end only because no more was seen yet: soft ends
+/// would draw points of the next piece, so that motion is underestimated. p depends neither
+/// on the size of the map nor on how often a surface was seen, and is comparable between
+/// poses.
 class SurfaceLikelihood {
  public:
     /// @param softeningStd_m pose search radius [m], >= 0: wider is smoother
@@ -41,12 +45,11 @@ class SurfaceLikelihood {
     std::size_t liveBytes() const;
 
  private:
-    /// In multiples of s_j.
     struct Patch {
         std::array<float, 3> mean{};  ///< [m]
-        /// Principal axes over s_j, the normal first.
+        /// Principal axes, the normal first, each over the standard deviation s along it.
         std::array<std::array<float, 3>, 3> axes{};
-        std::array<float, 2> halfEdge{};  ///< along axes 1 and 2
+        std::array<float, 2> halfEdge{};  ///< along axes 1 and 2 [s]
     };
     using Moments = std::array<float, 3 + Mixture<3>::packed>;
 
@@ -56,7 +59,7 @@ class SurfaceLikelihood {
 
     double softeningVariance_m2_;
     double outlierRatio_;
-    float reach_;  ///< farther patches are left out [s_j]
+    float reach_;  ///< farther patches are left out [s]
     std::vector<Patch> patches_;
     std::vector<Moments> moments_;  ///< what the patches were made of
     BoxIndex boxes_;
