@@ -1,12 +1,13 @@
 // Registration of pairs of scans, by our mixtures and by the normal distributions transform
 // of PCL with several cell sizes: the same pairs and guesses, in one run.
-//   build/bin/bench-registration LOG.rawlog POSES.tum
+//   build/bin/bench-registration LOG.rawlog POSES.tum [PAIRS]        default: 40 pairs
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 #include <pcl/registration/ndt.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <memory>
 #include <string>
@@ -95,15 +96,17 @@ std::vector<std::unique_ptr<Aligner>> alignersFor(SensorKind sensor) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 3) {
-        std::fputs("usage: bench-registration LOG.rawlog POSES.tum\n", stderr);
+    const int pairs = argc == 4 ? std::atoi(argv[3]) : 40;
+    if (argc < 3 || argc > 4 || pairs < 1) {
+        std::fputs("usage: bench-registration LOG.rawlog POSES.tum [PAIRS]\n", stderr);
         return 2;
     }
     try {
         RecordingOptions options;
         options.posesFile = argv[2];
         Recording recording(argv[1], options);
-        const RegistrationTrials trials = trialsFor(recording.sensor(), 1);
+        RegistrationTrials trials = trialsFor(recording.sensor(), 1);
+        trials.maxPairs = static_cast<std::size_t>(pairs);
         const auto figures =
             runTrials(recording, alignersFor(sensorKindOf(recording.sensor())), trials);
         std::fputs(trialsTable(figures, trials).c_str(), stdout);

@@ -79,14 +79,13 @@ class Explorer {
         PoseSearch search;
         search.planar = planar;
         search.lever_m = std::max(0.1, medianRange(scan));
-        search.firstStep_m = planar ? 0.05 : 0.15;
+        search.firstStep_m = planar ? 0.05 : std::clamp(0.05 * search.lever_m, 0.1, 0.3);
         const PoseScore score = [&](const Pose& T_map_robot) {
             return map_.computeObservationLikelihood(
                 *recorded.observation, hgmm::mrpt_bridge::toCPose3D(T_map_robot));
         };
         const Pose truth = hgmm::mrpt_bridge::toPose(recorded.T_map_robot);
-        const Pose registered =
-            planar ? truth : registeredPose(map_.model(), target_, scan, truth);
+        const Pose registered = registeredPose(map_.model(), target_, scan, truth);
         const auto found = [&](const Pose& pose) {
             return ScanLandscape::Found{errorOf(pose, truth), errorOf(pose, registered)};
         };

@@ -100,7 +100,7 @@ TEST(Likelihood, FollowsTheMapAndTheOptions) {
     const double before = map.computeObservationLikelihood(*scan, shifted);
     map.likelihoodOptions.softening_m = 0.5;
     EXPECT_GT(map.computeObservationLikelihood(*scan, shifted), before + 1);
-    map.likelihoodOptions.softening_m = 0.15;
+    map.likelihoodOptions.softening_m = 0.05;
     EXPECT_DOUBLE_EQ(map.computeObservationLikelihood(*scan, shifted), before);
     map.insertObservation(*scan, shifted);
     EXPECT_GT(map.computeObservationLikelihood(*scan, shifted), before);

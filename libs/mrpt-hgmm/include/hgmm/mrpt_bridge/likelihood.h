@@ -15,7 +15,7 @@ namespace hgmm::mrpt_bridge {
 
 /// Which points of a scan are compared with the map, and how.
 struct LikelihoodParams {
-    double softening_m = 0.15;  ///< standard deviation added to all surfaces [m], 0 to 10
+    double softening_m = 0.05;  ///< standard deviation added to all surfaces [m], 0 to 10
     double outlierRatio =
         0.05;                  ///< share of points that the map need not explain, in (0, 1)
     int maxPoints = 200;       ///< points compared, spread over the scan [count], >= 1
