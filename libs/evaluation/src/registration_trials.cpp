@@ -10,6 +10,7 @@
 #include "hgmm/evaluation/sensor_kind.h"
 #include "hgmm/evaluation/split.h"
 #include "hgmm/evaluation/timing.h"
+#include "hgmm/filter.h"
 #include "hgmm/map.h"
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
 #include "hgmm/registration.h"
@@ -24,7 +25,8 @@ class MixtureAligner : public Aligner {
     std::string name() const override { return "hgmm"; }
 
     void setTarget(const Scan& target) override {
-        const Map map = mapOf(target);
+        Map map(params_);
+        map.insert(target);
         std::vector<const Mixture<3>*> levels;
         for (std::size_t level = map.levelCount(); level > 0; --level)
             levels.push_back(&map.mixture(level - 1));
@@ -33,9 +35,7 @@ class MixtureAligner : public Aligner {
     }
 
     void setSource(const Scan& source) override {
-        Scan alone = source;
-        alone.T_map_sensor = {};
-        source_ = mapOf(alone).mixture();
+        source_ = filterScan(source, params_.filter);
     }
 
     Pose align(const Pose& guess) const override {
@@ -44,16 +44,10 @@ class MixtureAligner : public Aligner {
     }
 
  private:
-    Map mapOf(const Scan& scan) const {
-        Map map(params_);
-        map.insert(scan);
-        return map;
-    }
-
     MapParams params_;
     Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();  // of the target, in the map
     std::optional<RegistrationTarget> target_;
-    Mixture<3> source_;  // in the source's sensor frame: its map's origin is 0
+    Mixture<3> source_;  // in the source's sensor frame
 };
 
 template <class Work>

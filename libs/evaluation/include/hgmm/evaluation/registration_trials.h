@@ -25,8 +25,8 @@ class Aligner {
     virtual Pose align(const Pose& T_map_sensor_guess) const = 0;
 };
 
-/// Ours: RegistrationTarget of a map of the target, with the mixture of the source's own
-/// map.
+/// Ours: RegistrationTarget of a map of the target, with the samples (filterScan) of the
+/// source.
 std::unique_ptr<Aligner> makeMixtureAligner(const MapParams& params);
 
 /// Pairs of scans i, i + gap, evenly over a recording.
