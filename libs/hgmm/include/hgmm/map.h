@@ -64,10 +64,10 @@ class Map {
     void setParams(const MapParams& params);
 
     /// filter -> novelty split -> { known: update | novel: EM, hierarchy, append }, then
-    /// free space, then contradictions by rays that pass through surfaces; modalities, which
-    /// are models of their own, at the same time.
-    /// Throws std::invalid_argument for a malformed scan (Scan::validate), leaving the map
-    /// as it was; a scan without usable points changes nothing.
+    /// free space, then contradictions by rays that pass through surfaces; modalities,
+    /// which are models of their own, at the same time. Throws std::invalid_argument for a
+    /// malformed scan (Scan::validate), leaving the map as it was; a scan without usable
+    /// points changes nothing.
     InsertReport insert(const Scan& scan);
 
     /// Adds what another map knows; this map's parameters stay.
