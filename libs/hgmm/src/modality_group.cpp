@@ -177,7 +177,8 @@ void ModalityGroup::merge(const ModalityGroup& other, const Pose& T_local_other,
             ChannelSums sums(channels);
             sums.add(moved(mixture_[best], toComponent));
             sums.add(moved(component, toComponent));
-            mixture_.set(best, moved(sums.gaussian(kSmallestResidual), toComponent.inverse()));
+            mixture_.set(best,
+                         moved(sums.gaussian(kSmallestResidual), toComponent.inverse()));
         }
         index.update(mixture_.places(), best);
     }
