@@ -8,7 +8,7 @@
 namespace hgmm {
 namespace {
 
-ChannelGaussian component(double at) {
+ChannelGaussian componentAt(double at) {
     ChannelGaussian g;
     g.place.support = 10;
     g.place.mean = Eigen::Vector3d(at, 0, 1);
@@ -19,7 +19,7 @@ ChannelGaussian component(double at) {
 }
 
 TEST(ChannelMixture, JointIsTheGaussianOfPlaceAndChannel) {
-    const Gaussian<4> joint = component(2).joint(1);
+    const Gaussian<4> joint = componentAt(2).joint(1);
     const Eigen::Matrix3d XX = joint.covariance.topLeftCorner<3, 3>();
     const Eigen::Vector3d XL = joint.covariance.topRightCorner<3, 1>();
     EXPECT_LT((XX.inverse() * XL - Eigen::Vector3d(-1, 0, 0.5)).norm(), 1e-12);
@@ -30,9 +30,9 @@ TEST(ChannelMixture, JointIsTheGaussianOfPlaceAndChannel) {
 
 TEST(ChannelMixture, KeepsComponentsAndChannels) {
     ChannelMixture mixture(2);
-    mixture.pushBack(component(1));
-    mixture.pushBack(component(2));
-    mixture.set(0, component(5));
+    mixture.pushBack(componentAt(1));
+    mixture.pushBack(componentAt(2));
+    mixture.set(0, componentAt(5));
     EXPECT_EQ(mixture.size(), 2U);
     EXPECT_EQ(mixture[0].place.mean[0], 5);
     EXPECT_EQ(mixture[1].fits[1].slope, Eigen::Vector3d(-1, 0, 0.5));
@@ -49,13 +49,13 @@ TEST(ChannelMixture, KeepsComponentsAndChannels) {
 
 TEST(ChannelMixture, DegenerateFitsBecomeUsable) {
     ChannelMixture mixture(2);
-    ChannelGaussian flat = component(0);
+    ChannelGaussian flat = componentAt(0);
     flat.fits[0].residual = 0;
     flat.place.covariance = Eigen::Vector3d(1, 1, 1e-14).asDiagonal();
     mixture.pushBack(flat);
     EXPECT_NO_THROW(mixture.check());
     EXPECT_NO_THROW(mixture.joint(0).check());
-    ChannelGaussian broken = component(0);
+    ChannelGaussian broken = componentAt(0);
     broken.fits[1].mean = NAN;
     mixture.pushBack(broken);
     EXPECT_THROW(mixture.check(), std::logic_error);

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <thread>
+#include <vector>
 
 #include "coloured_scenes.h"
 
@@ -78,6 +80,27 @@ TEST(ModalityIo, CopiesAreEqualAndIndependent) {
     EXPECT_GT(map.modality("intensity", p).mean, before + 20);
     const Map moved = std::move(map);
     EXPECT_GT(moved.modality("intensity", p).mean, before + 20);
+}
+
+/// What a copy derives is made by the first of several readers.
+TEST(ModalityIo, AFreshCopyMayBeAskedByManyThreads) {
+    const Map map = colouredMap();
+    const Eigen::Vector3d p(1002, 2000.3, 30.1);
+    const double mean = map.modality("g", p).mean,
+                 inferred = map.infer("g", {{"r", 0.9}}).mean;
+    for (int round = 0; round < 5; ++round) {
+        const Map copy = map;
+        std::vector<std::thread> readers;
+        std::vector<double> means(4), inferences(4);
+        for (std::size_t k = 0; k < 4; ++k)
+            readers.emplace_back([&, k] {
+                inferences[k] = copy.infer("g", {{"r", 0.9}}).mean;
+                means[k] = copy.modality("g", p).mean;
+            });
+        for (std::thread& reader : readers) reader.join();
+        EXPECT_EQ(means, std::vector<double>(4, mean));
+        EXPECT_EQ(inferences, std::vector<double>(4, inferred));
+    }
 }
 
 TEST(ModalityIo, MapsWithoutModalitiesAreSavedAsBefore) {

@@ -17,7 +17,7 @@ namespace hgmm {
 
 namespace {
 
-constexpr double kLeastResidual = 1e-10;
+constexpr double kSmallestResidual = 1e-10;
 
 /// The same component seen from another frame.
 ChannelGaussian moved(ChannelGaussian g, const Pose& T_target_source) {
@@ -138,7 +138,7 @@ void ModalityGroup::insert(const ChannelSamples& samples, const Pose& T_local_se
         for (const std::uint32_t s : region.samples) sums.add(samples.sums(s));
         if (region.prior) sums.add(*region.prior);
         const ChannelGaussian component =
-            moved(sums.gaussian(kLeastResidual), T_local_sensor);
+            moved(sums.gaussian(kSmallestResidual), T_local_sensor);
         auto i = region.component;
         if (i == LinearRegion::kNone) {
             i = static_cast<std::uint32_t>(mixture_.size());
@@ -177,7 +177,7 @@ void ModalityGroup::merge(const ModalityGroup& other, const Pose& T_local_other,
             ChannelSums sums(channels);
             sums.add(moved(mixture_[best], toComponent));
             sums.add(moved(component, toComponent));
-            mixture_.set(best, moved(sums.gaussian(kLeastResidual), toComponent.inverse()));
+            mixture_.set(best, moved(sums.gaussian(kSmallestResidual), toComponent.inverse()));
         }
         index.update(mixture_.places(), best);
     }

@@ -12,11 +12,11 @@ namespace hgmm {
 namespace {
 
 /// Components farther than this from a point say nothing of it [sigma].
-constexpr float kSigmas = 3.F;
+constexpr float kReachSigmas = 3.F;
 constexpr std::size_t kMostLikeliest = 16;
 constexpr double kPi = 3.14159265358979323846;
 
-double normal(double value, double mean, double variance) {
+double normalDensity(double value, double mean, double variance) {
     const double d = value - mean;
     return std::exp(-0.5 * d * d / variance) / std::sqrt(2 * kPi * variance);
 }
@@ -47,7 +47,7 @@ ModalityGroup ModalityGroup::withNames(const std::vector<std::string>& names) co
 
 const ComponentIndex& ModalityGroup::index() const {
     return cache_->index.get([this] {
-        auto made = std::make_unique<ComponentIndex>(kSigmas);
+        auto made = std::make_unique<ComponentIndex>(kReachSigmas);
         made->rebuild(mixture_.places());
         return made;
     });
@@ -85,8 +85,8 @@ void ModalityGroup::visitAround(const Eigen::Vector3d& point, Visitor&& visit) c
     components.visitCandidates(p.x(), p.y(), p.z(), [&](std::uint32_t k) {
         const ComponentIndex::Factor& factor = components.factor(k);
         const float squared = factor.squaredMahalanobis(p.data());
-        if (!(squared <= kSigmas * kSigmas)) return;
-        // Within kSigmas of a component, densities are far from the ends of a double.
+        if (!(squared <= kReachSigmas * kReachSigmas)) return;
+        // Within kReachSigmas of a component, densities are far from the ends of a double.
         const double logDensity = double(factor.logNormalizer()) - 0.5 * double(squared);
         visit(k, double(mixture_.places().support[k]) * std::exp(logDensity));
     });
@@ -121,8 +121,9 @@ double ModalityGroup::density(const ChannelValue* values, std::size_t n,
     visitAround(point, [&](std::uint32_t k, double w) {
         weight += w;
         for (std::size_t i = 0; i < n; ++i)
-            sum += w * normal(values[i].value, regressed(values[i].channel, k, point),
-                              mixture_.residual(values[i].channel, k));
+            sum +=
+                w * normalDensity(values[i].value, regressed(values[i].channel, k, point),
+                                  mixture_.residual(values[i].channel, k));
     });
     return weight > 0 ? sum / weight : 0.0;
 }
@@ -135,8 +136,9 @@ std::size_t ModalityGroup::likeliest(const ChannelValue& value,
     most = std::min(most, kMostLikeliest);
     // The product of (5.9) and the density in (5.8) is that of place and value together.
     visitAround(point, [&](std::uint32_t k, double w) {
-        const double joint = w * normal(value.value, regressed(value.channel, k, point),
-                                        mixture_.residual(value.channel, k));
+        const double joint =
+            w * normalDensity(value.value, regressed(value.channel, k, point),
+                              mixture_.residual(value.channel, k));
         if (found == most && !(joint > weights[most - 1])) return;
         std::size_t at = found < most ? found++ : most - 1;
         for (; at > 0 && weights[at - 1] < joint; --at) {

@@ -8,7 +8,7 @@ namespace hgmm {
 namespace {
 
 constexpr std::size_t kIntervals = 256;
-constexpr double kSigmas = 4.0;
+constexpr double kIntervalSigmas = 4.0;
 
 }  // namespace
 
@@ -22,8 +22,8 @@ ValueIndex::ValueIndex(const ChannelMixture& mixture, int channel) {
     }
     double high = low_ = marginals_[0].mean;
     for (const Marginal& m : marginals_) {
-        low_ = std::min(low_, m.mean - kSigmas / m.perSigma);
-        high = std::max(high, m.mean + kSigmas / m.perSigma);
+        low_ = std::min(low_, m.mean - kIntervalSigmas / m.perSigma);
+        high = std::max(high, m.mean + kIntervalSigmas / m.perSigma);
     }
     perInterval_ = double(kIntervals) / (high - low_);
     struct Entry {
@@ -42,8 +42,8 @@ ValueIndex::ValueIndex(const ChannelMixture& mixture, int channel) {
                 std::clamp((value - low_) * perInterval_, 0.0, double(kIntervals - 1)));
         };
         const double logSupport = std::log(double(mixture.places().support[i]));
-        const std::size_t last = intervalOf(kSigmas);
-        for (std::size_t k = intervalOf(-kSigmas); k <= last; ++k) {
+        const std::size_t last = intervalOf(kIntervalSigmas);
+        for (std::size_t k = intervalOf(-kIntervalSigmas); k <= last; ++k) {
             const double centre = low_ + (double(k) + 0.5) / perInterval_;
             intervals[k].push_back({logSupport + logDensity(i, centre), i});
         }
