@@ -159,6 +159,7 @@ TEST(GoldenFile, MapOfVersion1LoadsAndAnswersAsEver) {
     edited::change(wanted);
     // Version 1 had no modalities.
     wanted.insertionOptions.params.modalities.clear();
+    wanted.insertionOptions.params.modality = hgmm::ModalityParams();
     wanted.renderOptions.modality.clear();
     EXPECT_EQ(edited::all(map), edited::all(wanted));
 }
