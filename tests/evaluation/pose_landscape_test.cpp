@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <atomic>
 #include <cmath>
+#include <mutex>
 
 #include "hgmm/evaluation/split.h"
 
@@ -108,12 +109,11 @@ TEST(PoseLandscape, FindsTheHigherOfTwoHills) {
 TEST(PoseLandscape, LatticeReachesAsFarAsAsked) {
     double farthest_m = 0, farthest_deg = 0;
     std::atomic<int> calls{0};
+    std::mutex mutex;
     const PoseScore score = [&](const Pose& pose) {
-#pragma omp critical
-        {
-            farthest_m = std::max(farthest_m, pose.t.cwiseAbs().maxCoeff());
-            farthest_deg = std::max(farthest_deg, errorOf(pose, {}).rotation_deg);
-        }
+        const std::lock_guard<std::mutex> lock(mutex);
+        farthest_m = std::max(farthest_m, pose.t.cwiseAbs().maxCoeff());
+        farthest_deg = std::max(farthest_deg, errorOf(pose, {}).rotation_deg);
         ++calls;
         return 0.0;
     };

@@ -134,6 +134,18 @@ TEST(CrossModal, ValuesThatWereNeverSeenAreNotKnown) {
     EXPECT_EQ(e.likelihood, 0);
 }
 
+/// The target was measured far from all that the prior was.
+TEST(CrossModal, TheTargetItselfAnswersWhereNoPlaceIsFound) {
+    Scan scan = paintedWall({{"r", plain(0.3)}, {"b", plain(0.6)}});
+    for (std::size_t i = 0; i < scan.size(); ++i)
+        scan.channels[scan.y[i] < 0 ? 1 : 0].values[i] = NAN;
+    const Map map = mapOf(scan, {"r", "b"});
+    const CrossModalEstimate e =
+        map.infer("b", {{"r", 50}}, Eigen::Vector3d(scan.x[0], 0.5, scan.z[0]));
+    EXPECT_FALSE(e.known);
+    EXPECT_NEAR(e.mean, 0.6, 0.02);
+}
+
 TEST(CrossModal, BadQuestionsGetAMessage) {
     const Map map = threePatches();
     EXPECT_THROW(map.infer("x", {{"r", 0.5}}), std::invalid_argument);

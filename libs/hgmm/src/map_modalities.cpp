@@ -69,7 +69,13 @@ CrossModalEstimate Map::infer(const std::string& target,
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
     if (point_map) point = *point_map - origin_;
     CrossModalEstimate estimate = inferModality(*map, known, point_map ? &point : nullptr);
-    if (estimate.known) estimate.place_map += origin_;
+    if (estimate.known) {
+        estimate.place_map += origin_;
+    } else if (point_map) {
+        const ModalityEstimate there = map->at(point);
+        estimate.mean = there.mean;
+        estimate.variance = there.variance;
+    }
     return estimate;
 }
 

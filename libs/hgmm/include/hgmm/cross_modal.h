@@ -10,7 +10,8 @@ struct ModalityValue {
     double value = 0.0;  ///< [unit of the channel]
 };
 
-/// A modality inferred from others.
+/// A modality inferred from others. Where no place with such values was found, mean and
+/// variance are the target's own regression (5.6) at the point that was asked for.
 struct CrossModalEstimate {
     double mean = 0.0;      ///< thesis eq. (5.13) [unit of the channel]
     double variance = 0.0;  ///< eq. (5.7) at the place [unit squared], >= 0
