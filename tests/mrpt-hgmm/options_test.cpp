@@ -101,14 +101,15 @@ TEST(OptionErrors, CommentsAndSpellingsOfNumbersAreUnderstood) {
 }
 
 TEST(Modalities, NamesAreSeparatedByCommasAndRgbIsShortForThree) {
-    using Names = std::vector<std::string>;
+    using NameList = std::vector<std::string>;
     for (const auto& [line, expected] :
-         {std::pair{"modalities = rgb,intensity", Names{"r", "g", "b", "intensity"}},
+         {std::pair{"modalities = rgb,intensity", NameList{"r", "g", "b", "intensity"}},
           std::pair{"modalities =   intensity ,  rgb\t; a comment",
-                    Names{"intensity", "r", "g", "b"}},
-          std::pair{"modalities = water content", Names{"water content"}},
-          std::pair{"modalities = ", Names{}}, std::pair{"modalities =   // none", Names{}},
-          std::pair{"levels = 3", Names{"b"}}}) {
+                    NameList{"intensity", "r", "g", "b"}},
+          std::pair{"modalities = water content", NameList{"water content"}},
+          std::pair{"modalities = ", NameList{}},
+          std::pair{"modalities =   // none", NameList{}},
+          std::pair{"levels = 3", NameList{"b"}}}) {
         CHGMMOccupancyMap::TInsertionOptions options;
         options.params.modalities = {"b"};
         options.loadFromConfigFile(CConfigFileMemory(std::string("[s]\n") + line + "\n"),
