@@ -5,6 +5,7 @@
 # A run succeeds if it ends within 0.15 m and 1.5 deg of the published pose. Needs a build.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+source scripts/runs.sh
 runs=${1:-20}
 maps=("${@:2}")
 [[ ${#maps[@]} -gt 0 ]] || maps=(hgmm grid points)
@@ -56,12 +57,7 @@ done | xargs -P "$(nproc)" -L 1 bash -c 'localise $0 $1' >"$out/runs.txt"
 echo '| map | runs | within 0.15 m, 1.5 deg | median error [m] | worst [m] | median seconds |'
 echo '| --- | --- | --- | --- | --- | --- |'
 for map in "${maps[@]}"; do
-    awk -v map=$map -v runs="$runs" '
-        function median(v, n,   i, j, t) {
-            for (i = 2; i <= n; ++i) for (j = i; j > 1 && v[j - 1] > v[j]; --j) { t = v[j]; v[j] = v[j - 1]; v[j - 1] = t }
-            return n % 2 ? v[(n + 1) / 2] : (v[n / 2] + v[n / 2 + 1]) / 2
-        }
-        $1 == map && NF == 4 { e[++n] = $2; s[n] = $4; good += $2 <= 0.15 && $3 <= 1.5; if ($2 > worst) worst = $2 }
-        END { printf("| %s | %d | %d | %.3f | %.3f | %.1f |\n", map, runs, good, median(e, n), worst, median(s, n)) }' \
-        "$out/runs.txt"
+    of() { figures "$map" 4 "$1"; }
+    printf '| %s | %d | %d | %.3f | %.3f | %.1f |\n' "$map" "$runs" "$(successes "$map" 4 0.15 1.5)" \
+        "$(of 2 | median)" "$(of 2 | sort -g | tail -1)" "$(of 4 | median)"
 done

@@ -7,6 +7,7 @@
 # error is below 0.3 m and 2 deg. Needs a build. Everything it makes is in build/localisation3d.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+source scripts/runs.sh
 : "${HGMM_DATA_DIR:?names no folder of recordings}"
 data=$(cd "$HGMM_DATA_DIR" && pwd)/livox_building
 runs=${1:-5}
@@ -75,23 +76,20 @@ localise() { # MAP RUN
                 2 * atan2(sqrt(1 - dot * dot), dot) / rad
         }' >errors
     local metres degrees
-    metres=$(tail -n +21 errors | awk '{ print $1 }' | sort -g | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }')
-    degrees=$(tail -n +21 errors | awk '{ print $2 }' | sort -g | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }')
+    metres=$(tail -n +21 errors | awk '{ print $1 }' | median)
+    degrees=$(tail -n +21 errors | awk '{ print $2 }' | median)
     echo "$1 $metres $degrees $start $end $(wc -l <errors)" |
         awk '{ printf("%s %.3f %.2f %.3f\n", $1, $2, $3, ($5 - $4) / $6) }'
 }
-export -f localise
+export -f localise median
 export out sensor PATH
 for map in "${maps[@]}"; do
     for run in $(seq "$runs"); do echo "$map $run"; done
 done | xargs -P "$(nproc)" -L 1 bash -c 'localise $0 $1' >"$out/runs.txt"
 
-# The middle of a column of numbers, the lower one of two.
-median() { sort -g | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }'; }
 echo '| map | runs | within 0.3 m, 2 deg | median error [m] | [deg] | seconds per update |'
 echo '| --- | --- | --- | --- | --- | --- |'
 for map in "${maps[@]}"; do
-    of() { awk -v map="$map" -v column="$1" '$1 == map && NF == 4 { print $column }' "$out/runs.txt"; }
-    good=$(awk -v map="$map" '$1 == map && NF == 4 && $2 < 0.3 && $3 < 2' "$out/runs.txt" | wc -l)
-    echo "| $map | $runs | $good | $(of 2 | median) | $(of 3 | median) | $(of 4 | median) |"
+    of() { figures "$map" 4 "$1" | median; }
+    echo "| $map | $runs | $(successes "$map" 4 0.3 2) | $(of 2) | $(of 3) | $(of 4) |"
 done

@@ -8,6 +8,7 @@
 # 1.2 deg away from it, at (4.23, -18.46, -87.7 deg), hence the other columns. Needs a build.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+source scripts/runs.sh
 seeds=${1:-1-10}
 maps=("${@:2}")
 [[ ${#maps[@]} -gt 0 ]] || maps=(hgmm grid)
@@ -53,12 +54,8 @@ done | xargs -P "$(nproc)" -L 1 bash -c 'run $0 $1' >"$out/runs.txt"
 echo '| map | runs | within 0.5 m, 3 deg | median error | median error by direct matching | median seconds |'
 echo '| --- | --- | --- | --- | --- | --- |'
 for map in "${maps[@]}"; do
-    awk -v map="$map" '
-        function median(v, n,   i, j, t) {
-            for (i = 2; i <= n; ++i) for (j = i; j > 1 && v[j - 1] > v[j]; --j) { t = v[j]; v[j] = v[j - 1]; v[j - 1] = t }
-            return n % 2 ? v[(n + 1) / 2] : (v[n / 2] + v[n / 2 + 1]) / 2
-        }
-        $1 == map && NF == 6 { m[++n] = $2; d[n] = $3; tm[n] = $4; td[n] = $5; s[n] = $6; good += $2 <= 0.5 && $3 <= 3 }
-        END { if (n) printf("| %s | %d | %d | %.2f m, %.1f deg | %.2f m, %.1f deg | %.1f |\n", map, n, good,
-            median(m, n), median(d, n), median(tm, n), median(td, n), median(s, n)) }' "$out/runs.txt"
+    of() { figures "$map" 6 "$1" | median; }
+    printf '| %s | %d | %d | %.2f m, %.1f deg | %.2f m, %.1f deg | %.1f |\n' "$map" \
+        "$(figures "$map" 6 1 | wc -l)" "$(successes "$map" 6 0.5 3)" \
+        "$(of 2)" "$(of 3)" "$(of 4)" "$(of 5)" "$(of 6)"
 done

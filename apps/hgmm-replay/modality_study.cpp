@@ -100,10 +100,7 @@ class ModalityTrial {
     ModalityView viewOfScan() const {
         hgmm::Scan scan = middle_;
         scan.T_map_sensor = {};
-        const auto map = makeMap(options_.config);
-        map->insertionOptions.params.modalities = findings_.names;
-        map->insertScan(scan);
-        return viewOf(savedAndLoaded(map->model()), scan);
+        return viewOf(mapOf(scan), scan);
     }
     /// Test points of all scans by the map of all; after finish().
     ModalityView viewOfSequence() const { return {test_, estimates_}; }

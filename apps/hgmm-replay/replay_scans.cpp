@@ -137,7 +137,8 @@ Replayed replayScans(Recording& recording,
     while (const std::optional<RecordedScan> recorded = recording.next()) {
         const Clock::time_point start = Clock::now();
         std::optional<hgmm::Scan> scan = hgmm::mrpt_bridge::observationToScan(
-            *recorded->observation, recorded->T_map_robot);
+            *recorded->observation, recorded->T_map_robot,
+            hgmm::mrpt_bridge::channelsFor(replayed.map->insertionOptions.params));
         replayed.conversion_ms.push_back(millisecondsSince(start));
         if (scan) {
             points += scan->size();

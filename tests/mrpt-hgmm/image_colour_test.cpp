@@ -90,6 +90,26 @@ TEST(ImageColour, PointsAreProjectedIntoTheImageOfAnotherCamera) {
     EXPECT_LT(coloured, scan->size()) << "some are beyond the image's border";
 }
 
+TEST(ImageColour, WhoWantsNoChannelsGetsTheSamePointsWithout) {
+    using hgmm::mrpt_bridge::Channels;
+    const auto o = pairOfCameras();
+    const auto with = observationToScan(*o);
+    const auto without = observationToScan(*o, std::nullopt, Channels::none);
+    EXPECT_EQ(with->channels.size(), 3U);
+    EXPECT_TRUE(without->channels.empty());
+    EXPECT_EQ(without->x, with->x);
+    EXPECT_EQ(without->y, with->y);
+    EXPECT_EQ(without->z, with->z);
+    const auto cloud = observations::rotating(16);
+    cloud->intensityImage.resize(cloud->rowCount, cloud->columnCount);
+    cloud->intensityImage.fill(80);
+    const auto bright = observationToScan(*cloud);
+    const auto plain = observationToScan(*cloud, std::nullopt, Channels::none);
+    EXPECT_EQ(bright->channels.size(), 1U);
+    EXPECT_TRUE(plain->channels.empty());
+    EXPECT_EQ(plain->x, bright->x);
+}
+
 TEST(ImageColour, LensDistortionIsThatOfMrpt) {
     auto o = pairOfCameras();
     o->cameraParamsIntensity.setDistortionPlumbBob(-0.2, 0.05, 0.01, -0.008, 0.01);

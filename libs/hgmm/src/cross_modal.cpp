@@ -3,15 +3,13 @@
 #include <cmath>
 
 #include "hgmm/map.h"
+#include "likeliest.h"
 #include "modality_inference.h"
 #include "value_index.h"
 
 namespace hgmm {
 
 namespace {
-
-/// Candidate places of each prior [count]: bounds the cost of a query.
-constexpr std::size_t kPlacesPerPrior = 3;
 
 /// Priors of one group, whose densities at a place are found together.
 struct GroupPriors {
@@ -43,28 +41,19 @@ Eigen::Vector3d placeOf(const ChannelGaussian& g, const ChannelValue& value) {
 
 /// Components that weigh most at a value, thesis eq. (5.9). Which of them are kept is
 /// decided by the values of the other priors too, as far as the component holds them.
-std::size_t likeliestAnywhere(const GroupPriors& priors, const ChannelValue& value,
-                              std::uint32_t* components) {
+Likeliest likeliestAnywhere(const GroupPriors& priors, const ChannelValue& value) {
     const std::vector<float>& support = priors.group->mixture().places().support;
     std::array<const ValueIndex*, kMaxModalities> byValue{};
     for (std::size_t i = 0; i < priors.count; ++i)
         byValue[i] = &priors.group->byValue(priors.values[i].channel);
-    std::array<double, kPlacesPerPrior> weights{};
-    std::size_t found = 0;
+    Likeliest likeliest;
     for (const std::uint32_t k : priors.group->byValue(value.channel).at(value.value)) {
         double weight = std::log(double(support[k]));
         for (std::size_t i = 0; i < priors.count; ++i)
             weight += byValue[i]->logDensity(k, priors.values[i].value);
-        if (found == kPlacesPerPrior && !(weight > weights[found - 1])) continue;
-        std::size_t at = found < kPlacesPerPrior ? found++ : found - 1;
-        for (; at > 0 && weights[at - 1] < weight; --at) {
-            weights[at] = weights[at - 1];
-            components[at] = components[at - 1];
-        }
-        weights[at] = weight;
-        components[at] = k;
+        likeliest.offer(weight, k);
     }
-    return found;
+    return likeliest;
 }
 
 /// Candidate places L of thesis 5.2.2: from components around the point, if it is given and
@@ -75,18 +64,13 @@ std::vector<Eigen::Vector3d> candidatePlaces(const std::vector<GroupPriors>& gro
     const auto collect = [&](bool around) {
         for (const GroupPriors& priors : groups)
             for (std::size_t i = 0; i < priors.count; ++i) {
-                std::array<std::uint32_t, kPlacesPerPrior> components{};
                 const ChannelValue& value = priors.values[i];
-                const std::size_t n =
-                    around ? priors.group->likeliest(value, *point, kPlacesPerPrior,
-                                                     components.data())
-                           : likeliestAnywhere(priors, value, components.data());
-                for (std::size_t c = 0; c < n; ++c)
-                    places.push_back(
-                        placeOf(priors.group->mixture()[components[c]], value));
+                for (const std::uint32_t k : around ? priors.group->likeliest(value, *point)
+                                                    : likeliestAnywhere(priors, value))
+                    places.push_back(placeOf(priors.group->mixture()[k], value));
             }
     };
-    places.reserve(kPlacesPerPrior * kMaxModalities);
+    places.reserve(Likeliest::kMost * kMaxModalities);
     if (point != nullptr) collect(true);
     if (places.empty()) collect(false);
     return places;

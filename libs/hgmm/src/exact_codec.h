@@ -5,23 +5,17 @@
 #include "byte_stream.h"
 #include "hgmm/map.h"
 #include "hgmm/mixture.h"
+#include "mixture_arrays.h"
 
 /// Mixtures as they are saved bit for bit: u64 components, then f32 arrays (support, means,
 /// packed covariances).
 namespace hgmm {
 
-template <typename Mix, typename Visitor>
-void forEachArrayOf(Mix& mixture, Visitor&& visit) {
-    visit(mixture.support);
-    for (auto& axis : mixture.mean) visit(axis);
-    for (auto& entry : mixture.covariance) visit(entry);
-}
-
 template <int D>
 void putMixture(Writer& out, const Mixture<D>& mixture) {
     out.put(static_cast<std::uint64_t>(mixture.size()));
-    forEachArrayOf(mixture,
-                   [&](const std::vector<float>& a) { out.put(a.data(), a.size()); });
+    forEachArray(mixture,
+                 [&](const std::vector<float>& a) { out.put(a.data(), a.size()); });
 }
 
 /// Throws FormatError if the data ends too early.
@@ -32,7 +26,7 @@ Mixture<D> getMixture(Reader& in) {
     if (n > in.left() / bytesPerComponent)
         throw FormatError("saved map: it ends too early");
     Mixture<D> mixture;
-    forEachArrayOf(mixture, [&](std::vector<float>& array) {
+    forEachArray(mixture, [&](std::vector<float>& array) {
         array.resize(n);
         in.get(array.data(), n);
     });

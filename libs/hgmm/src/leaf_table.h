@@ -3,10 +3,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
 #include "hgmm/filter.h"
+#include "hgmm/octave.h"
 #include "hgmm/scan.h"
 
 namespace hgmm {
@@ -71,34 +71,13 @@ class LeafTable {
     std::vector<Leaf<Sums>> leaves_;
 };
 
-/// floor(log2(v)) of a normal positive number. std::ilogb is a call that would
-/// take a good part of the filter's time.
-inline int octaveOf(float v) {
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, &v, sizeof(bits));
-    return static_cast<int>(bits >> 23U) - 127;
-}
-
-/// 2^exponent, for exponents of normal numbers.
-inline float singlePowerOfTwo(int exponent) {
-    const auto bits = static_cast<std::uint32_t>(exponent + 127) << 23U;
-    float v = 0;
-    std::memcpy(&v, &bits, sizeof(v));
-    return v;
-}
-
 inline std::uint64_t leafKey(int octave, float x, float y, float z) {
     // 19 bits an axis hold any leaf index, at the smallest leaves and 100 km.
     constexpr unsigned kIndexBits = 19;
-    const float perLeaf = singlePowerOfTwo(-octave);
+    const auto perLeaf = static_cast<float>(powerOfTwo(-octave));
     constexpr std::uint64_t mask = (1U << kIndexBits) - 1U;
     const auto index = [&](float v) {
-        // std::floor is a call on processors that cannot be taken for granted.
-        const float leaves = v * perLeaf;
-        const auto towardsZero = static_cast<std::int32_t>(leaves);
-        const std::int32_t floor =
-            towardsZero - (leaves < static_cast<float>(towardsZero) ? 1 : 0);
-        return static_cast<std::uint64_t>(floor) & mask;
+        return static_cast<std::uint64_t>(floorToInt(v * perLeaf)) & mask;
     };
     return static_cast<std::uint64_t>(octave + 32) << (3 * kIndexBits) |
            index(x) << (2 * kIndexBits) | index(y) << kIndexBits | index(z);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -12,11 +13,10 @@ namespace {
 constexpr std::size_t kPointsPerTask = 256;
 
 void requireModelled(const std::string& name, const std::vector<std::string>& modalities) {
+    if (std::find(modalities.begin(), modalities.end(), name) != modalities.end()) return;
     std::string known;
-    for (const std::string& other : modalities) {
-        if (other == name) return;
+    for (const std::string& other : modalities)
         known += (known.empty() ? "" : ", ") + other;
-    }
     throw std::invalid_argument("Map: no modality '" + name + "', it models " +
                                 (known.empty() ? "none" : known));
 }

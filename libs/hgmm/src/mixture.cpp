@@ -4,16 +4,11 @@
 #include <numeric>
 #include <string>
 
+#include "mixture_arrays.h"
+
 namespace hgmm {
 
 namespace {
-
-template <typename Mix, typename Visitor>
-void forEachArray(Mix& mixture, Visitor&& visit) {
-    visit(mixture.support);
-    for (auto& axis : mixture.mean) visit(axis);
-    for (auto& entry : mixture.covariance) visit(entry);
-}
 
 template <int D>
 bool isPositiveDefinite(const typename Gaussian<D>::Matrix& covariance) {

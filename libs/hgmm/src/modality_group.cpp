@@ -48,9 +48,6 @@ std::vector<std::uint32_t> assignKnown(const std::array<std::vector<float>, 3>& 
                                        const Mixture<3>& places,
                                        const ComponentIndex& index, double maxMahalanobis) {
     const auto maxSquared = static_cast<float>(maxMahalanobis * maxMahalanobis);
-    std::vector<float> logSupport(places.size());
-    for (std::size_t j = 0; j < places.size(); ++j)
-        logSupport[j] = std::log(places.support[j]);
     std::vector<std::uint32_t> own(means[0].size(), LinearRegion::kNone);
     const auto n = static_cast<std::ptrdiff_t>(own.size());
 #pragma omp parallel for schedule(static)
@@ -61,7 +58,8 @@ std::vector<std::uint32_t> assignKnown(const std::array<std::vector<float>, 3>& 
             const ComponentIndex::Factor& factor = index.factor(j);
             const float squared = factor.squaredMahalanobis(p);
             if (squared > maxSquared) return;
-            const float weight = logSupport[j] + factor.logNormalizer() - 0.5F * squared;
+            const float weight =
+                std::log(places.support[j]) + factor.logNormalizer() - 0.5F * squared;
             if (weight < best || (weight == best && j > own[i])) return;
             best = weight;
             own[i] = j;

@@ -5,6 +5,7 @@
 #include "hgmm/gaussian.h"
 #include "hgmm/hierarchy.h"
 #include "hgmm/modality_group.h"
+#include "likeliest.h"
 #include "modality_cache.h"
 
 namespace hgmm {
@@ -13,7 +14,6 @@ namespace {
 
 /// Components farther than this from a point say nothing of it [sigma].
 constexpr float kReachSigmas = 3.F;
-constexpr std::size_t kMostLikeliest = 16;
 constexpr double kPi = 3.14159265358979323846;
 
 double normalDensity(double value, double mean, double variance) {
@@ -128,27 +128,16 @@ double ModalityGroup::density(const ChannelValue* values, std::size_t n,
     return weight > 0 ? sum / weight : 0.0;
 }
 
-std::size_t ModalityGroup::likeliest(const ChannelValue& value,
-                                     const Eigen::Vector3d& point, std::size_t most,
-                                     std::uint32_t* components) const {
-    std::array<double, kMostLikeliest> weights{};
-    std::size_t found = 0;
-    most = std::min(most, kMostLikeliest);
+Likeliest ModalityGroup::likeliest(const ChannelValue& value,
+                                   const Eigen::Vector3d& point) const {
+    Likeliest components;
     // The product of (5.9) and the density in (5.8) is that of place and value together.
     visitAround(point, [&](std::uint32_t k, double w) {
-        const double joint =
-            w * normalDensity(value.value, regressed(value.channel, k, point),
-                              mixture_.residual(value.channel, k));
-        if (found == most && !(joint > weights[most - 1])) return;
-        std::size_t at = found < most ? found++ : most - 1;
-        for (; at > 0 && weights[at - 1] < joint; --at) {
-            weights[at] = weights[at - 1];
-            components[at] = components[at - 1];
-        }
-        weights[at] = joint;
-        components[at] = k;
+        components.offer(w * normalDensity(value.value, regressed(value.channel, k, point),
+                                           mixture_.residual(value.channel, k)),
+                         k);
     });
-    return found;
+    return components;
 }
 
 const ModalityGroup::Overall& ModalityGroup::overall(int channel) const {

@@ -102,7 +102,8 @@ void CHGMMOccupancyMap::internal_clear() {
 bool CHGMMOccupancyMap::internal_insertObservation(
     const mrpt::obs::CObservation& observation,
     const std::optional<const mrpt::poses::CPose3D>& robotPose) {
-    const auto scan = bridge::observationToScan(observation, robotPose);
+    const auto scan = bridge::observationToScan(
+        observation, robotPose, bridge::channelsFor(insertionOptions.params));
     return scan && insertScan(*scan).samples > 0;
 }
 

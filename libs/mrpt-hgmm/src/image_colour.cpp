@@ -166,11 +166,18 @@ void addChannel(const mrpt::img::CImage& image, const std::vector<ImagePixel>& p
                 const char* name, unsigned imageChannel, Scan& scan) {
     constexpr float scale = 1.F / 255.F;
     Channel channel{name, std::vector<float>(pixels.size(), kNotMeasured)};
-    for (std::size_t i = 0; i < pixels.size(); ++i)
-        if (pixels[i].row >= 0)
-            channel.values[i] =
-                scale * image.at<std::uint8_t>(unsigned(pixels[i].col),
-                                               unsigned(pixels[i].row), imageChannel);
+    const auto perPixel = unsigned(image.channelCount());
+    // Asking CImage for each pixel would take most of the conversion's time.
+    const std::uint8_t* line = nullptr;
+    int lineRow = -1;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        if (pixels[i].row < 0) continue;
+        if (pixels[i].row != lineRow) {
+            lineRow = pixels[i].row;
+            line = image.ptrLine<std::uint8_t>(unsigned(lineRow));
+        }
+        channel.values[i] = scale * line[unsigned(pixels[i].col) * perPixel + imageChannel];
+    }
     scan.channels.push_back(std::move(channel));
 }
 

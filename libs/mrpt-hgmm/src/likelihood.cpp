@@ -110,7 +110,7 @@ std::shared_ptr<const ObservationLikelihood::Points> ObservationLikelihood::poin
 
     params.validate();
     auto points = std::make_shared<Points>();
-    if (const auto scan = observationToScan(observation)) {
+    if (const auto scan = observationToScan(observation, std::nullopt, Channels::none)) {
         std::vector<std::size_t> inRange;
         for (std::size_t i = 0; i < scan->size(); ++i) {
             const double range = std::hypot(scan->x[i], scan->y[i], scan->z[i]);

@@ -27,10 +27,12 @@ mrpt::poses::CPose3D toCPose3D(const Pose& pose) {
         R, mrpt::math::CMatrixDouble31({pose.t.x(), pose.t.y(), pose.t.z()}));
 }
 
-std::optional<Scan> observationToScan(
-    const CObservation& observation, const std::optional<mrpt::poses::CPose3D>& robotPose) {
+std::optional<Scan> observationToScan(const CObservation& observation,
+                                      const std::optional<mrpt::poses::CPose3D>& robotPose,
+                                      Channels channels) {
     Scan scan;
-    if (!visitSupported(observation, [&](const auto& o) { return readScan(o, scan); }))
+    if (!visitSupported(observation,
+                        [&](const auto& o) { return readScan(o, channels, scan); }))
         return std::nullopt;
 
     mrpt::poses::CPose3D sensorPose;

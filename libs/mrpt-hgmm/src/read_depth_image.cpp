@@ -33,7 +33,7 @@ class LoadedScope {
     bool unload_ = false;
 };
 
-void readPoints(const CObservation3DRangeScan& o, Scan& scan) {
+void readPoints(const CObservation3DRangeScan& o, Channels channels, Scan& scan) {
     const std::size_t n = o.points3D_x.size();
     const bool pixelsKnown = o.points3D_idxs_x.size() == n && o.points3D_idxs_y.size() == n;
     std::vector<PixelOfPoint> pixels;
@@ -45,7 +45,7 @@ void readPoints(const CObservation3DRangeScan& o, Scan& scan) {
         scan.pushBack(x, y, z);
         if (pixelsKnown) pixels.push_back({o.points3D_idxs_y[i], o.points3D_idxs_x[i]});
     }
-    addImageColours(o, pixels, scan);
+    if (channels == Channels::all) addImageColours(o, pixels, scan);
 }
 
 /// Directions (1, ky, kz) of pixels, from MRPT's table if the lens distorts and else
@@ -74,7 +74,7 @@ class PixelRays {
     int cols_ = 0;
 };
 
-bool readRanges(const CObservation3DRangeScan& o, Scan& scan) {
+bool readRanges(const CObservation3DRangeScan& o, Channels channels, Scan& scan) {
     if (!(o.cameraParams.fx() > 0 && o.cameraParams.fy() > 0)) {
         warnOnce("CObservation3DRangeScan '" + o.sensorLabel +
                  "' has a range image but no camera calibration (fx, fy): ignored.");
@@ -95,20 +95,20 @@ bool readRanges(const CObservation3DRangeScan& o, Scan& scan) {
                           static_cast<float>(kz * x));
             pixels.push_back({row, col});
         }
-    addImageColours(o, pixels, scan);
+    if (channels == Channels::all) addImageColours(o, pixels, scan);
     return true;
 }
 
 }  // namespace
 
-bool readScan(const CObservation3DRangeScan& o, Scan& scan) {
+bool readScan(const CObservation3DRangeScan& o, Channels channels, Scan& scan) {
     const LoadedScope loaded(o);
     if (o.hasPoints3D && !o.points3D_x.empty()) {
-        readPoints(o, scan);
+        readPoints(o, channels, scan);
         return true;
     }
     if (o.hasRangeImage && o.rangeImage.rows() * o.rangeImage.cols() > 0)
-        return readRanges(o, scan);
+        return readRanges(o, channels, scan);
     return true;
 }
 

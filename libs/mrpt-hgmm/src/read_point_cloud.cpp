@@ -37,9 +37,9 @@ float intensityScale(const mrpt::maps::CPointsMapXYZI& cloud) {
     return largest <= 1.F ? 1.F : largest <= 255.F ? 1.F / 255.F : 1.F / 65535.F;
 }
 
-void readCloud(const mrpt::maps::CPointsMap& cloud, Scan& scan) {
+void readCloud(const mrpt::maps::CPointsMap& cloud, Channels channels, Scan& scan) {
     if (const auto* xyzi = dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&cloud)) {
-        ScanWriter writer(scan, {"intensity"});
+        ScanWriter writer(scan, channels, {"intensity"});
         writer.reserve(cloud.size());
         const float scale = intensityScale(*xyzi);
         forEachPoint(cloud, [&](std::size_t i, float x, float y, float z) {
@@ -47,7 +47,7 @@ void readCloud(const mrpt::maps::CPointsMap& cloud, Scan& scan) {
         });
     } else if (const auto* coloured =
                    dynamic_cast<const mrpt::maps::CColouredPointsMap*>(&cloud)) {
-        ScanWriter writer(scan, {"r", "g", "b"});
+        ScanWriter writer(scan, channels, {"r", "g", "b"});
         writer.reserve(cloud.size());
         forEachPoint(cloud, [&](std::size_t i, float x, float y, float z) {
             float r = 0, g = 0, b = 0;
@@ -55,7 +55,7 @@ void readCloud(const mrpt::maps::CPointsMap& cloud, Scan& scan) {
             writer.pushBack(x, y, z, measured(r), measured(g), measured(b));
         });
     } else {
-        ScanWriter writer(scan, {});
+        ScanWriter writer(scan, channels, {});
         writer.reserve(cloud.size());
         forEachPoint(cloud, [&](std::size_t, float x, float y, float z) {
             writer.pushBack(x, y, z);
@@ -63,10 +63,11 @@ void readCloud(const mrpt::maps::CPointsMap& cloud, Scan& scan) {
     }
 }
 
-void readCloud(const CObservationVelodyneScan::TPointCloud& cloud, Scan& scan) {
+void readCloud(const CObservationVelodyneScan::TPointCloud& cloud, Channels channels,
+               Scan& scan) {
     constexpr float scale = 1.F / 255.F;
     const bool bright = cloud.intensity.size() == cloud.size();
-    ScanWriter writer = bright ? ScanWriter(scan, {"intensity"}) : ScanWriter(scan, {});
+    ScanWriter writer(scan, bright ? channels : Channels::none, {"intensity"});
     writer.reserve(cloud.size());
     for (std::size_t i = 0; i < cloud.size(); ++i)
         if (bright)
@@ -77,10 +78,10 @@ void readCloud(const CObservationVelodyneScan::TPointCloud& cloud, Scan& scan) {
 
 }  // namespace
 
-bool readScan(const CObservationPointCloud& o, Scan& scan) {
+bool readScan(const CObservationPointCloud& o, Channels channels, Scan& scan) {
     const bool unloadAfter = o.isExternallyStored() && !o.pointcloud;
     o.load();
-    if (o.pointcloud) readCloud(*o.pointcloud, scan);
+    if (o.pointcloud) readCloud(*o.pointcloud, channels, scan);
     if (unloadAfter) o.unload();
     return true;
 }
@@ -89,9 +90,9 @@ bool canRead(const CObservationVelodyneScan& o) {
     return o.point_cloud.size() > 0 || o.scan_packets.empty() || !o.calibration.empty();
 }
 
-bool readScan(const CObservationVelodyneScan& o, Scan& scan) {
+bool readScan(const CObservationVelodyneScan& o, Channels channels, Scan& scan) {
     if (o.point_cloud.size() > 0) {
-        readCloud(o.point_cloud, scan);
+        readCloud(o.point_cloud, channels, scan);
         return true;
     }
     if (o.scan_packets.empty()) return true;
@@ -104,7 +105,7 @@ bool readScan(const CObservationVelodyneScan& o, Scan& scan) {
     CObservationVelodyneScan::TGeneratePointCloudParameters params;
     params.minDistance = 0;  // the sensor's own minRange applies
     copy.generatePointCloud(params);
-    readCloud(copy.point_cloud, scan);
+    readCloud(copy.point_cloud, channels, scan);
     return true;
 }
 

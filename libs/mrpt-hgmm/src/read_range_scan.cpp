@@ -2,9 +2,9 @@
 
 namespace hgmm::mrpt_bridge {
 
-bool readScan(const mrpt::obs::CObservation2DRangeScan& o, Scan& scan) {
+bool readScan(const mrpt::obs::CObservation2DRangeScan& o, Channels channels, Scan& scan) {
     const std::size_t rays = o.getScanSize();
-    ScanWriter writer(scan, {});
+    ScanWriter writer(scan, channels, {});
     writer.reserve(rays);
     // A sweeping laser turns about its y axis, from sensorPose on, while it scans.
     const double pitchStep = rays > 1 ? o.deltaPitch / (rays - 1.0) : 0.0;

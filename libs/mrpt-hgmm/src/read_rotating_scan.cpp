@@ -59,11 +59,11 @@ Azimuths azimuths(const CObservationRotatingScan& o) {
 }
 
 void readImage(const CObservationRotatingScan& o, const std::vector<double>& elevations,
-               Scan& scan) {
+               Channels channels, Scan& scan) {
     const bool bright =
         o.intensityImage.rows() == o.rowCount && o.intensityImage.cols() == o.columnCount;
     const Azimuths azimuth = azimuths(o);
-    ScanWriter writer = bright ? ScanWriter(scan, {"intensity"}) : ScanWriter(scan, {});
+    ScanWriter writer(scan, bright ? channels : Channels::none, {"intensity"});
     for (int col = 0; col < o.columnCount; ++col) {
         const double angle = azimuth.first + col * azimuth.step;
         const double c = std::cos(angle), s = std::sin(angle);
@@ -88,7 +88,7 @@ bool canRead(const CObservationRotatingScan& o) {
     return o.rowCount == 0 || o.columnCount == 0 || !rowElevations(o).empty();
 }
 
-bool readScan(const CObservationRotatingScan& o, Scan& scan) {
+bool readScan(const CObservationRotatingScan& o, Channels channels, Scan& scan) {
     if (o.rowCount == 0 || o.columnCount == 0) return true;
     if (o.rangeImage.rows() != o.rowCount || o.rangeImage.cols() != o.columnCount) {
         warnOnce("CObservationRotatingScan '" + o.sensorLabel +
@@ -104,7 +104,7 @@ bool readScan(const CObservationRotatingScan& o, Scan& scan) {
             "HDL-32E are known. Convert it to CObservationPointCloud.");
         return false;
     }
-    readImage(o, elevations, scan);
+    readImage(o, elevations, channels, scan);
     return true;
 }
 

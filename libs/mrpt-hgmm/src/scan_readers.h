@@ -11,17 +11,24 @@
 #include <string>
 #include <utility>
 
+#include "hgmm/mrpt_bridge/observation_to_scan.h"
 #include "hgmm/scan.h"
 
-/// One reader per observation type. Each fills points and channels in the sensor frame and
-/// leaves T_map_sensor alone; false means that the observation cannot be understood.
+/// One reader per observation type. Each fills points, and channels if these are wanted, in
+/// the sensor frame and leaves T_map_sensor alone; false means that the observation cannot
+/// be understood.
 namespace hgmm::mrpt_bridge {
 
-bool readScan(const mrpt::obs::CObservation2DRangeScan& observation, Scan& scan);
-bool readScan(const mrpt::obs::CObservation3DRangeScan& observation, Scan& scan);
-bool readScan(const mrpt::obs::CObservationPointCloud& observation, Scan& scan);
-bool readScan(const mrpt::obs::CObservationVelodyneScan& observation, Scan& scan);
-bool readScan(const mrpt::obs::CObservationRotatingScan& observation, Scan& scan);
+bool readScan(const mrpt::obs::CObservation2DRangeScan& observation, Channels channels,
+              Scan& scan);
+bool readScan(const mrpt::obs::CObservation3DRangeScan& observation, Channels channels,
+              Scan& scan);
+bool readScan(const mrpt::obs::CObservationPointCloud& observation, Channels channels,
+              Scan& scan);
+bool readScan(const mrpt::obs::CObservationVelodyneScan& observation, Channels channels,
+              Scan& scan);
+bool readScan(const mrpt::obs::CObservationRotatingScan& observation, Channels channels,
+              Scan& scan);
 
 /// Whether readScan would understand the observation, as far as can be told without its
 /// data.
@@ -56,7 +63,10 @@ void warnOnce(const std::string& message);
 /// values.
 class ScanWriter {
  public:
-    ScanWriter(Scan& scan, std::initializer_list<const char*> channelNames) : scan_(scan) {
+    ScanWriter(Scan& scan, Channels channels,
+               std::initializer_list<const char*> channelNames)
+        : scan_(scan) {
+        if (channels == Channels::none) return;
         for (const char* name : channelNames) scan_.channels.push_back({name, {}});
     }
 
@@ -65,12 +75,13 @@ class ScanWriter {
         for (Channel& channel : scan_.channels) channel.values.reserve(n);
     }
 
-    /// One value per channel named in the constructor.
+    /// One value per channel named in the constructor, unwanted ones included.
     template <typename... Values>
     void pushBack(float x, float y, float z, Values... values) {
         if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) return;
         scan_.pushBack(x, y, z);
-        std::size_t channel = 0;
+        if (scan_.channels.empty()) return;
+        [[maybe_unused]] std::size_t channel = 0;
         (scan_.channels[channel++].values.push_back(values), ...);
     }
 

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "hgmm/octave.h"
+
 namespace hgmm {
 
 /// Finds the boxes that may hold a point at a cost that does not depend on how many there
@@ -87,15 +89,9 @@ class BoxIndex {
         constexpr float limit = 1 << 30;
         const float cell = v * perCell;
         if (!(cell > -limit && cell < limit)) return 1 << 30;
-        // std::floor is a call on processors that cannot be taken for granted.
-        const auto towardsZero = static_cast<std::int32_t>(cell);
-        return towardsZero - (cell < static_cast<float>(towardsZero) ? 1 : 0);
+        return floorToInt(cell);
     }
-    /// 2^-octave.
-    static float perCell(int octave) {
-        return octave > 0 ? 1.F / static_cast<float>(std::uint32_t{1} << unsigned(octave))
-                          : static_cast<float>(std::uint32_t{1} << unsigned(-octave));
-    }
+    static float perCell(int octave) { return static_cast<float>(powerOfTwo(-octave)); }
 
     static Placement placementOf(const Box& box);
     template <typename Visitor>

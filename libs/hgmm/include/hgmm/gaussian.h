@@ -23,12 +23,7 @@ class WhitenedGaussian {
     /// (x - mu)^T Sigma^-1 (x - mu), >= 0.
     Scalar squaredMahalanobis(const Scalar* x) const {
         Scalar sum = 0;
-        for (int row = 0; row < D; ++row) {
-            Scalar whitened = 0;
-            for (int col = 0; col <= row; ++col)
-                whitened += factor_[lower(row, col)] * (x[col] - mean_[col]);
-            sum += whitened * whitened;
-        }
+        for (int row = 0; row < D; ++row) sum += squaredRow(row, x);
         return sum;
     }
 
@@ -37,10 +32,7 @@ class WhitenedGaussian {
     bool isWithin(const Scalar* x, Scalar maxSquared) const {
         Scalar sum = 0;
         for (int row = 0; row < D; ++row) {
-            Scalar whitened = 0;
-            for (int col = 0; col <= row; ++col)
-                whitened += factor_[lower(row, col)] * (x[col] - mean_[col]);
-            sum += whitened * whitened;
+            sum += squaredRow(row, x);
             if (!(sum <= maxSquared)) return false;
         }
         return true;
@@ -74,6 +66,13 @@ class WhitenedGaussian {
     Scalar factor(int row, int col) const { return factor_[lower(row, col)]; }
 
  private:
+    /// Square of row `row` of W (x - mean).
+    Scalar squaredRow(int row, const Scalar* x) const {
+        Scalar whitened = 0;
+        for (int col = 0; col <= row; ++col)
+            whitened += factor_[lower(row, col)] * (x[col] - mean_[col]);
+        return whitened * whitened;
+    }
     static constexpr int lower(int row, int col) { return row * (row + 1) / 2 + col; }
 
     std::array<Scalar, D> mean_{};

@@ -2,25 +2,10 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
+
+#include "hgmm/octave.h"
 
 namespace hgmm {
-
-/// floor(log2(v)) of a normal positive number. std::ilogb is a call, and a lattice asks for
-/// millions.
-inline int octaveOf(double v) {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &v, sizeof(bits));
-    return static_cast<int>(bits >> 52U) - 1023;
-}
-
-/// 2^exponent, for exponents of normal numbers.
-inline double powerOfTwo(int exponent) {
-    const auto bits = static_cast<std::uint64_t>(exponent + 1023) << 52U;
-    double v = 0;
-    std::memcpy(&v, &bits, sizeof(v));
-    return v;
-}
 
 /// A cell of the lattice of cubes with edges of 2^octave metres.
 struct LatticeCell {
@@ -40,13 +25,11 @@ struct LatticeCell {
     }
 
  private:
-    /// std::floor is a call on processors that cannot be taken for granted. Beyond the
-    /// limit any cell will do: nothing is mapped there.
+    /// Beyond the limit any cell will do: nothing is mapped there.
     static std::int32_t floorOf(double v) {
-        constexpr double limit = 1e9;
-        if (!(v > -limit && v < limit)) return v > 0 ? 1000000000 : -1000000000;
-        const auto towardsZero = static_cast<std::int32_t>(v);
-        return towardsZero - (v < static_cast<double>(towardsZero) ? 1 : 0);
+        constexpr std::int32_t limit = 1000000000;
+        if (!(v > -limit && v < limit)) return v > 0 ? limit : -limit;
+        return floorToInt(v);
     }
 };
 

@@ -142,8 +142,8 @@ class Map {
     /// bit.
     void modality(const std::string& name, const Eigen::Vector3d* points_map, std::size_t n,
                   ModalityEstimate* answers) const;
-    /// Infers a modality from the values of others (thesis 5.2, ModalityInference), at a
-    /// place if it is given. Priors that were never measured do not count. Throws
+    /// Infers a modality from the values of others (thesis 5.2, CrossModalEstimate), at
+    /// a place if it is given. Priors that were never measured do not count. Throws
     /// std::invalid_argument for names that the map does not model, no priors at all, or a
     /// value or point that is not finite.
     CrossModalEstimate infer(

@@ -14,6 +14,7 @@ namespace hgmm {
 struct HierarchyParams;
 struct MapParams;
 class ChannelSamples;
+class Likeliest;
 class ValueIndex;
 
 /// A value of one of the modalities of a group.
@@ -60,10 +61,9 @@ class ModalityGroup {
     /// score of thesis eq. (5.12) and (5.14) [sum of 1/unit]. Zero where nothing is known.
     double density(const ChannelValue* values, std::size_t n,
                    const Eigen::Vector3d& point) const;
-    /// The terms of thesis eq. (5.8) that weigh most at a place: components by falling
-    /// density of place and value, at most `most` <= 16. Returns how many.
-    std::size_t likeliest(const ChannelValue& value, const Eigen::Vector3d& point,
-                          std::size_t most, std::uint32_t* components) const;
+    /// The terms of thesis eq. (5.8) that weigh most at a place: those of the largest
+    /// density of place and value.
+    Likeliest likeliest(const ChannelValue& value, const Eigen::Vector3d& point) const;
     /// The mixture over (X, Lambda) of a level < params.levels, 0 being the base.
     const Mixture<4>& level(int channel, std::size_t level,
                             const HierarchyParams& params) const;

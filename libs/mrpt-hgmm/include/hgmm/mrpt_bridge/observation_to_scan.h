@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "hgmm/map_params.h"
 #include "hgmm/scan.h"
 
 /// Where MRPT's types and the model's meet.
@@ -12,6 +13,15 @@ namespace hgmm::mrpt_bridge {
 /// The same rigid transform, in double.
 Pose toPose(const mrpt::poses::CPose3D& pose);
 mrpt::poses::CPose3D toCPose3D(const Pose& pose);
+
+/// Whether a scan's channels are read: who has no use for them saves more than half of the
+/// time that a coloured depth image takes.
+enum class Channels { all, none };
+
+/// What a map of these parameters learns from.
+inline Channels channelsFor(const MapParams& params) {
+    return params.modalities.empty() ? Channels::none : Channels::all;
+}
 
 /// Converts an observation to a scan in the sensor's own frame: rays start at 0, +X
 /// forward, and T_map_sensor is robotPose (+) sensorPose, the only place where the two are
@@ -40,7 +50,8 @@ mrpt::poses::CPose3D toCPose3D(const Pose& pose);
 /// Throws std::runtime_error if a file of an externally stored field cannot be read.
 std::optional<Scan> observationToScan(
     const mrpt::obs::CObservation& observation,
-    const std::optional<mrpt::poses::CPose3D>& robotPose = std::nullopt);
+    const std::optional<mrpt::poses::CPose3D>& robotPose = std::nullopt,
+    Channels channels = Channels::all);
 
 /// Whether observationToScan knows the type, decided without converting anything.
 bool isSupported(const mrpt::obs::CObservation& observation);
