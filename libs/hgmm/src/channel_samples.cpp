@@ -1,57 +1,86 @@
 #include "channel_samples.h"
 
+#include <algorithm>
+
 #include "channel_sums.h"
+#include "four.h"
 #include "leaf_table.h"
 
 namespace hgmm {
 
 namespace {
 
-/// Sums over the points of a leaf, in floats, four at a time: u = (1, dx, dy, dz), about
-/// the leaf's first point, and l, about its first value, so that floats keep their digits.
+/// Sums over the points of a leaf, in floats, four at a time, about the leaf's first point
+/// and its first values, so that floats keep their digits. Channels go in blocks of four
+/// lanes; the last lane of all is 1, whose moments are those of the places.
 template <int J>
 struct PointSums {
-    using Four = Eigen::Array4f;
+    static constexpr int kBlocks = (J + 1 + 3) / 4;
+    static constexpr int kLast = kBlocks - 1;
 
-    std::array<Four, 4> outer = zeros<4>();    ///< u u^T
-    std::array<Four, J> channel = zeros<J>();  ///< l u
-    std::array<float, J> square{};             ///< l^2
-    std::array<float, J> first{};              ///< values that l is about
+    /// Of lanes v.
+    struct Block {
+        Four sum{}, x{}, y{}, z{};  ///< v, v dx, v dy, v dz
+        Four square{};              ///< v^2
+        Four first{};               ///< what v is about
+    };
+    std::array<Block, kBlocks> blocks{};
+    std::array<Four, 3> outer{};  ///< dx d, dy d, dz d with d = (dx, dy, dz, 0)
 
-    float count() const { return outer[0][0]; }
+    float count() const { return blocks[kLast].sum[3]; }
 
     void add(double dx, double dy, double dz, const std::array<const float*, J>& values,
              std::size_t i) {
-        if (count() == 0.F)
-            for (int c = 0; c < J; ++c) first[c] = values[c][i];
-        const Four u(1.F, float(dx), float(dy), float(dz));
-        for (int row = 0; row < 4; ++row) outer[row] += u[row] * u;
-        for (int c = 0; c < J; ++c) {
-            const float l = values[c][i] - first[c];
-            channel[c] += l * u;
-            square[c] += l * l;
+        const float x = float(dx), y = float(dy), z = float(dz);
+        const bool isFirst = count() == 0.F;
+        for (int b = 0; b < kBlocks; ++b) {
+            Block& block = blocks[b];
+            Four v = valuesOf(b, values, i);
+            if (isFirst) {
+                block.first = v;
+                if (b == kLast) block.first[3] = 0.F;
+            }
+            v -= block.first;
+            block.sum += v;
+            block.x += v * x;
+            block.y += v * y;
+            block.z += v * z;
+            block.square += v * v;
         }
+        const Four d = {x, y, z, 0.F};
+        outer[0] += d * x;
+        outer[1] += d * y;
+        outer[2] += d * z;
     }
 
     /// The layout of ChannelSums, about the leaf's first point.
     void write(int channels, double* v) const {
-        for (int row = 0, k = 0; row < 4; ++row)
-            for (int col = row; col < 4; ++col, ++k) v[k] = outer[row][col];
-        v += ChannelSums::kPlace;
+        const Block& places = blocks[kLast];
+        const double n = count(), sums[3] = {places.x[3], places.y[3], places.z[3]};
+        *v++ = n;
+        for (const double sum : sums) *v++ = sum;
+        for (int row = 0; row < 3; ++row)
+            for (int col = row; col < 3; ++col) *v++ = outer[row][col];
         for (int c = 0; c < channels; ++c, v += ChannelSums::kChannel) {
-            const double f = first[c], n = count();
-            v[0] = channel[c][0] + f * n;
-            v[1] = square[c] + f * (2.0 * channel[c][0] + f * n);
-            for (int d = 0; d < 3; ++d) v[2 + d] = channel[c][1 + d] + f * outer[0][1 + d];
+            const Block& block = blocks[c / 4];
+            const int lane = c % 4;
+            const double f = block.first[lane], sum = block.sum[lane];
+            v[0] = sum + f * n;
+            v[1] = block.square[lane] + f * (2.0 * sum + f * n);
+            v[2] = block.x[lane] + f * sums[0];
+            v[3] = block.y[lane] + f * sums[1];
+            v[4] = block.z[lane] + f * sums[2];
         }
     }
 
  private:
-    template <int N>
-    static std::array<Four, N> zeros() {
-        std::array<Four, N> all;
-        all.fill(Four::Zero());
-        return all;
+    static Four valuesOf(int block, const std::array<const float*, J>& values,
+                         std::size_t i) {
+        const auto value = [&](int lane) {
+            const int c = 4 * block + lane;
+            return c < J ? values[c][i] : 0.F;
+        };
+        return Four{value(0), value(1), value(2), block == kLast ? 1.F : value(3)};
     }
 };
 

@@ -1,8 +1,8 @@
 #include "hgmm/filter.h"
 
 #include <algorithm>
-#include <array>
 
+#include "four.h"
 #include "hgmm/require.h"
 #include "leaf_table.h"
 
@@ -12,28 +12,38 @@ namespace {
 
 /// Moments of the points of one leaf.
 struct Sums {
-    double count = 0;
-    std::array<double, 3> sum{};
-    std::array<double, 6> sumOuter{};
+    Two xy{};                       ///< sums of dx, dy [m]
+    Two zn{};                       ///< sum of dz [m], count
+    Two xx_xy{}, yy_yz{}, zz_xz{};  ///< sums of products [m^2]
 
     void add(double dx, double dy, double dz) {
-        count += 1;
-        sum[0] += dx, sum[1] += dy, sum[2] += dz;
-        sumOuter[0] += dx * dx, sumOuter[1] += dx * dy, sumOuter[2] += dx * dz;
-        sumOuter[3] += dy * dy, sumOuter[4] += dy * dz, sumOuter[5] += dz * dz;
+        xy += Two{dx, dy};
+        zn += Two{dz, 1.0};
+        xx_xy += Two{dx, dy} * dx;
+        yy_yz += Two{dy, dz} * dy;
+        zz_xz += Two{dz, dx} * dz;
+    }
+    double count() const { return zn[1]; }
+    Eigen::Vector3d sum() const { return {xy[0], xy[1], zn[0]}; }
+    Eigen::Matrix3d sumOuter() const {
+        Eigen::Matrix3d m;
+        m << xx_xy[0], xx_xy[1], zz_xz[1],  //
+            xx_xy[1], yy_yz[0], yy_yz[1],   //
+            zz_xz[1], yy_yz[1], zz_xz[0];
+        return m;
     }
 };
 
 Gaussian<3> sampleOf(const Leaf<Sums>& leaf, const FilterParams& params) {
     const Sums& sums = leaf.sums;
     Gaussian<3> g;
-    g.support = sums.count;
-    Eigen::Vector3d offset(sums.sum[0], sums.sum[1], sums.sum[2]);
-    offset /= sums.count;
-    for (int row = 0, k = 0; row < 3; ++row)
-        for (int col = row; col < 3; ++col, ++k)
+    g.support = sums.count();
+    const Eigen::Vector3d offset = sums.sum() / sums.count();
+    const Eigen::Matrix3d outer = sums.sumOuter();
+    for (int row = 0; row < 3; ++row)
+        for (int col = row; col < 3; ++col)
             g.covariance(row, col) = g.covariance(col, row) =
-                sums.sumOuter[k] / sums.count - offset[row] * offset[col];
+                outer(row, col) / sums.count() - offset[row] * offset[col];
     for (int d = 0; d < 3; ++d) g.mean[d] = leaf.anchor[d] + offset[d];
     const double noise = params.noiseAt(g.mean.norm());
     for (int d = 0; d < 3; ++d)

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "four.h"
 #include "hgmm/filter.h"
 #include "hgmm/octave.h"
 #include "hgmm/scan.h"
@@ -71,16 +72,14 @@ class LeafTable {
     std::vector<Leaf<Sums>> leaves_;
 };
 
-inline std::uint64_t leafKey(int octave, float x, float y, float z) {
+inline std::uint64_t leafKey(int octave, Four point) {
     // 19 bits an axis hold any leaf index, at the smallest leaves and 100 km.
     constexpr unsigned kIndexBits = 19;
-    const auto perLeaf = static_cast<float>(powerOfTwo(-octave));
-    constexpr std::uint64_t mask = (1U << kIndexBits) - 1U;
-    const auto index = [&](float v) {
-        return static_cast<std::uint64_t>(floorToInt(v * perLeaf)) & mask;
-    };
+    constexpr std::int32_t mask = (1 << kIndexBits) - 1;
+    const FourInts index = floorToInt(point * floatPowerOfTwo(-octave)) & mask;
     return static_cast<std::uint64_t>(octave + 32) << (3 * kIndexBits) |
-           index(x) << (2 * kIndexBits) | index(y) << kIndexBits | index(z);
+           std::uint64_t(index[0]) << (2 * kIndexBits) |
+           std::uint64_t(index[1]) << kIndexBits | std::uint64_t(index[2]);
 }
 
 /// The leaves of the points that are in range, each with its sums.
@@ -109,7 +108,7 @@ LeafTable<Sums> sumLeaves(const Scan& scan, const FilterParams& params,
             continue;
         }
         const int octave = octaveOf(std::max(minLeaf4, leafAtOneMetre4 * range2)) >> 2;
-        const std::uint64_t key = leafKey(octave, x, y, z);
+        const std::uint64_t key = leafKey(octave, Four{x, y, z, 0.F});
         if (key != current) {
             if (counted.used > 0) table[leaf].sums = sums;
             current = key;

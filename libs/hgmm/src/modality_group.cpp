@@ -43,39 +43,13 @@ std::array<std::vector<float>, 3> movedMeans(const ChannelSamples& samples,
     return means;
 }
 
-/// The likeliest component within `maxMahalanobis` of each sample, or LinearRegion::kNone.
-std::vector<std::uint32_t> assignKnown(const std::array<std::vector<float>, 3>& means,
-                                       const Mixture<3>& places,
-                                       const ComponentIndex& index, double maxMahalanobis) {
-    const auto maxSquared = static_cast<float>(maxMahalanobis * maxMahalanobis);
-    std::vector<std::uint32_t> own(means[0].size(), LinearRegion::kNone);
-    const auto n = static_cast<std::ptrdiff_t>(own.size());
-#pragma omp parallel for schedule(static)
-    for (std::ptrdiff_t i = 0; i < n; ++i) {
-        const float p[3] = {means[0][i], means[1][i], means[2][i]};
-        float best = -std::numeric_limits<float>::infinity();
-        index.visitCandidates(p[0], p[1], p[2], [&](std::uint32_t j) {
-            const ComponentIndex::Factor& factor = index.factor(j);
-            const float squared = factor.squaredMahalanobis(p);
-            if (squared > maxSquared) return;
-            const float weight =
-                std::log(places.support[j]) + factor.logNormalizer() - 0.5F * squared;
-            if (weight < best || (weight == best && j > own[i])) return;
-            best = weight;
-            own[i] = j;
-        });
-    }
-    return own;
-}
-
 /// Known samples by component, then novel ones by cell, both in order of first appearance.
 std::vector<LinearRegion> regionsOf(const std::vector<std::uint32_t>& own,
-                                    std::size_t components,
                                     const std::array<std::vector<float>, 3>& means,
                                     const Eigen::Vector3d& sensorOrigin,
                                     const CellParams& params) {
     std::vector<LinearRegion> regions;
-    std::vector<std::uint32_t> ofComponent(components, LinearRegion::kNone);
+    std::unordered_map<std::uint32_t, std::uint32_t> ofComponent;
     std::vector<std::uint32_t> novel;
     std::array<std::vector<float>, 3> novelMeans;
     for (std::uint32_t i = 0; i < own.size(); ++i) {
@@ -84,13 +58,13 @@ std::vector<LinearRegion> regionsOf(const std::vector<std::uint32_t>& own,
             for (int d = 0; d < 3; ++d) novelMeans[d].push_back(means[d][i]);
             continue;
         }
-        std::uint32_t& region = ofComponent[own[i]];
-        if (region == LinearRegion::kNone) {
-            region = static_cast<std::uint32_t>(regions.size());
+        const auto [entry, isNew] =
+            ofComponent.try_emplace(own[i], static_cast<std::uint32_t>(regions.size()));
+        if (isNew) {
             regions.emplace_back();
             regions.back().component = own[i];
         }
-        regions[region].samples.push_back(i);
+        regions[entry->second].samples.push_back(i);
     }
     const std::vector<LatticeCell> cells = assignCells(novelMeans, sensorOrigin, params);
     std::unordered_map<LatticeCell, std::uint32_t, LatticeCellHash> ofCell;
@@ -116,16 +90,41 @@ double difference(const ChannelGaussian& a, const ChannelGaussian& b, int channe
 
 }  // namespace
 
+std::vector<std::uint32_t> ModalityGroup::assignKnown(
+    const std::array<std::vector<float>, 3>& means, double maxMahalanobis) const {
+    const PlaceIndex& places = index();
+    const auto maxSquared = static_cast<float>(maxMahalanobis * maxMahalanobis);
+    std::vector<std::uint32_t> own(means[0].size(), LinearRegion::kNone);
+    const auto n = static_cast<std::ptrdiff_t>(own.size());
+#pragma omp parallel for schedule(static)
+    for (std::ptrdiff_t i = 0; i < n; ++i) {
+        const float p[3] = {means[0][i], means[1][i], means[2][i]};
+        float best = -std::numeric_limits<float>::infinity();
+        places.components().visitCandidates(p[0], p[1], p[2], [&](std::uint32_t j) {
+            const float peak = places.logPeak(j);
+            // Most candidates are given up by this, many of the others by the first rows;
+            // with a margin for rounding, so that the order of candidates never matters.
+            const float bound = std::min(maxSquared, 2.F * (peak - best) + 1e-3F);
+            if (bound < 0.F) return;
+            const ComponentIndex::Factor& factor = places.components().factor(j);
+            if (!factor.isWithin(p, bound)) return;
+            const float weight = peak - 0.5F * factor.squaredMahalanobis(p);
+            if (weight < best || (weight == best && j > own[i])) return;
+            best = weight;
+            own[i] = j;
+        });
+    }
+    return own;
+}
+
 void ModalityGroup::insert(const ChannelSamples& samples, const Pose& T_local_sensor,
                            const MapParams& params) {
     if (samples.size() == 0) return;
-    index();
-    ComponentIndex& index = *cache_->index.value();
+    PlaceIndex& index = writableIndex();
     const auto means = movedMeans(samples, T_local_sensor);
-    const auto own =
-        assignKnown(means, mixture_.places(), index, params.novelty.maxMahalanobis);
+    const auto own = assignKnown(means, params.novelty.maxMahalanobis);
     std::vector<LinearRegion> regions =
-        regionsOf(own, mixture_.size(), means, T_local_sensor.t, params.cells);
+        regionsOf(own, means, T_local_sensor.t, params.cells);
     const Pose T_sensor_local = T_local_sensor.inverse();
     for (LinearRegion& region : regions)
         if (region.component != LinearRegion::kNone)
@@ -151,8 +150,7 @@ void ModalityGroup::insert(const ChannelSamples& samples, const Pose& T_local_se
 
 void ModalityGroup::merge(const ModalityGroup& other, const Pose& T_local_other,
                           const MapParams& params) {
-    index();
-    ComponentIndex& index = *cache_->index.value();
+    PlaceIndex& index = writableIndex();
     const std::size_t candidates = mixture_.size();
     const int channels = mixture_.channels();
     for (std::size_t k = 0; k < other.mixture_.size(); ++k) {
@@ -160,13 +158,14 @@ void ModalityGroup::merge(const ModalityGroup& other, const Pose& T_local_other,
         const Eigen::Vector3f mean = Eigen::Vector3d(component.place.mean).cast<float>();
         auto best = static_cast<std::uint32_t>(mixture_.size());
         double least = params.hierarchy.similarityMax;
-        index.visitCandidates(mean.x(), mean.y(), mean.z(), [&](std::uint32_t j) {
-            if (j >= candidates) return;
-            const double d = difference(mixture_[j], component, channels);
-            if (d > least || (d == least && j > best)) return;
-            least = d;
-            best = j;
-        });
+        index.components().visitCandidates(
+            mean.x(), mean.y(), mean.z(), [&](std::uint32_t j) {
+                if (j >= candidates) return;
+                const double d = difference(mixture_[j], component, channels);
+                if (d > least || (d == least && j > best)) return;
+                least = d;
+                best = j;
+            });
         if (best == mixture_.size()) {
             mixture_.pushBack(component);
         } else {

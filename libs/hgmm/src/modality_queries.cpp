@@ -12,8 +12,6 @@ namespace hgmm {
 
 namespace {
 
-/// Components farther than this from a point say nothing of it [sigma].
-constexpr float kReachSigmas = 3.F;
 constexpr double kPi = 3.14159265358979323846;
 
 double normalDensity(double value, double mean, double variance) {
@@ -45,12 +43,14 @@ ModalityGroup ModalityGroup::withNames(const std::vector<std::string>& names) co
     return ModalityGroup(names, mixture_.withChannels(channels));
 }
 
-const ComponentIndex& ModalityGroup::index() const {
-    return cache_->index.get([this] {
-        auto made = std::make_unique<ComponentIndex>(kReachSigmas);
-        made->rebuild(mixture_.places());
-        return made;
-    });
+const ModalityGroup::PlaceIndex& ModalityGroup::index() const {
+    return cache_->index.get(
+        [this] { return std::make_unique<PlaceIndex>(mixture_.places()); });
+}
+
+ModalityGroup::PlaceIndex& ModalityGroup::writableIndex() {
+    index();
+    return *cache_->index.value();
 }
 
 const ValueIndex& ModalityGroup::byValue(int channel) const {
@@ -80,13 +80,13 @@ const Mixture<4>& ModalityGroup::level(int channel, std::size_t level,
 
 template <typename Visitor>
 void ModalityGroup::visitAround(const Eigen::Vector3d& point, Visitor&& visit) const {
-    const ComponentIndex& components = index();
+    const ComponentIndex& components = index().components();
     const Eigen::Vector3f p = point.cast<float>();
     components.visitCandidates(p.x(), p.y(), p.z(), [&](std::uint32_t k) {
         const ComponentIndex::Factor& factor = components.factor(k);
         const float squared = factor.squaredMahalanobis(p.data());
-        if (!(squared <= kReachSigmas * kReachSigmas)) return;
-        // Within kReachSigmas of a component, densities are far from the ends of a double.
+        if (!(squared <= PlaceIndex::kReachSigmas * PlaceIndex::kReachSigmas)) return;
+        // Within that reach of a component, densities are far from the ends of a double.
         const double logDensity = double(factor.logNormalizer()) - 0.5 * double(squared);
         visit(k, double(mixture_.places().support[k]) * std::exp(logDensity));
     });
@@ -159,7 +159,7 @@ const ModalityGroup::Overall& ModalityGroup::overall(int channel) const {
 std::size_t ModalityGroup::liveBytes() const {
     std::size_t bytes = sizeof(*this) + sizeof(Cache) + mixture_.liveBytes();
     for (const std::string& name : names_) bytes += sizeof(name) + name.capacity();
-    if (const ComponentIndex* made = cache_->index.value()) bytes += made->liveBytes();
+    if (const PlaceIndex* made = cache_->index.value()) bytes += made->liveBytes();
     for (const auto& lazy : cache_->byValue)
         if (const ValueIndex* made = lazy.value()) bytes += made->liveBytes();
     constexpr std::size_t perComponent = sizeof(float) * (1 + 4 + Mixture<4>::packed);

@@ -69,7 +69,6 @@ class ModalityGroup {
                             const HierarchyParams& params) const;
     /// Components by the values that they hold.
     const ValueIndex& byValue(int channel) const;
-    const ComponentIndex& index() const;
     /// @}
 
     std::size_t liveBytes() const;
@@ -78,6 +77,7 @@ class ModalityGroup {
     }
 
  private:
+    class PlaceIndex;
     struct Cache;    ///< index, levels, values: built when first needed
     struct Overall;  ///< what all that was measured of a channel has together
 
@@ -89,6 +89,13 @@ class ModalityGroup {
     double regressed(int channel, std::uint32_t k, const Eigen::Vector3d& point) const;
 
     const Overall& overall(int channel) const;
+    const PlaceIndex& index() const;
+    /// The likeliest component within `maxMahalanobis` of each place, or
+    /// LinearRegion::kNone.
+    std::vector<std::uint32_t> assignKnown(const std::array<std::vector<float>, 3>& means,
+                                           double maxMahalanobis) const;
+    /// For writers, who are alone.
+    PlaceIndex& writableIndex();
 
     std::vector<std::string> names_;
     ChannelMixture mixture_;

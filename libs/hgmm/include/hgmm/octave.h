@@ -26,6 +26,12 @@ inline double powerOfTwo(int octave) {
     std::memcpy(&v, &bits, sizeof(v));
     return v;
 }
+inline float floatPowerOfTwo(int octave) {
+    const auto bits = static_cast<std::uint32_t>(octave + 127) << 23U;
+    float v = 0;
+    std::memcpy(&v, &bits, sizeof(v));
+    return v;
+}
 
 /// floor(v) of a number whose floor is an int32.
 template <typename Scalar>
