@@ -100,6 +100,59 @@ TEST(BoxIndex, FollowsUpdatesAndRemovals) {
     EXPECT_TRUE(candidates(pair.index, {0, 0, 0}).empty());
 }
 
+struct Ball {
+    Point centre{};
+    float radius = 0;
+
+    float distanceTo(const float* p) const {
+        return std::hypot(p[0] - centre[0], p[1] - centre[1], p[2] - centre[2]);
+    }
+    BoxIndex::Box box() const { return {centre, {radius, radius, radius}}; }
+};
+
+void enter(BoxIndex& index, std::uint32_t i, const Ball& ball) {
+    index.update(i, ball.box(), [&](const float* cube, float halfEdge) {
+        return ball.distanceTo(cube) <= ball.radius + 1.7321F * halfEdge;
+    });
+}
+
+TEST(BoxIndex, BodiesAreFoundInTheFinerCellsThatTheyTouchOnly) {
+    std::mt19937_64 engine(3);
+    BoxIndex index(BoxIndex::Cells{3, -2}), ofBoxes(BoxIndex::Cells{3, -2});
+    std::vector<Ball> balls(200);
+    const auto place = [&](std::uint32_t i) {
+        for (float& v : balls[i].centre) v = static_cast<float>(uniform(engine, -5, 5));
+        balls[i].radius = static_cast<float>(uniform(engine, 0.01, 3));
+        enter(index, i, balls[i]);
+        ofBoxes.update(i, balls[i].box());
+    };
+    for (std::uint32_t i = 0; i < balls.size(); ++i) place(i);
+    for (int k = 0; k < 100; ++k)
+        place(static_cast<std::uint32_t>(engine() % balls.size()));
+    for (int k = 0; k < 50; ++k) {
+        const auto i = static_cast<std::uint32_t>(engine() % balls.size());
+        index.removeSwap(i);
+        ofBoxes.removeSwap(i);
+        balls[i] = balls.back();
+        balls.pop_back();
+    }
+    std::size_t visited = 0, visitedOfBoxes = 0;
+    for (int q = 0; q < 2000; ++q) {
+        Point p{};
+        for (float& v : p) v = static_cast<float>(uniform(engine, -6, 6));
+        const auto found = candidates(index, p);
+        const std::set<std::uint32_t> unique(found.begin(), found.end());
+        EXPECT_EQ(unique.size(), found.size()) << "visited twice";
+        for (std::uint32_t i = 0; i < balls.size(); ++i)
+            if (balls[i].distanceTo(p.data()) <= balls[i].radius) {
+                EXPECT_EQ(unique.count(i), 1U);
+            }
+        visited += found.size();
+        visitedOfBoxes += candidates(ofBoxes, p).size();
+    }
+    EXPECT_LT(double(visited), 0.8 * double(visitedOfBoxes));
+}
+
 TEST(BoxIndex, RefusesAGap) {
     BoxIndex index;
     EXPECT_THROW(index.update(1, {}), std::out_of_range);

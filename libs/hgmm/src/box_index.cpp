@@ -5,26 +5,19 @@
 
 namespace hgmm {
 
-BoxIndex::Placement BoxIndex::placementOf(const Box& box) {
+BoxIndex::Placement BoxIndex::placementOf(const Box& box) const {
     const float largest = std::max({box.halfExtent[0], box.halfExtent[1], box.halfExtent[2],
                                     std::ldexp(1.F, kMinOctave)});
     Placement p;
-    p.octave = static_cast<std::int8_t>(std::clamp(
-        static_cast<int>(std::ceil(std::log2(largest))), kMinOctave, kMaxOctave));
+    p.octave = static_cast<std::int8_t>(
+        std::clamp(static_cast<int>(std::ceil(std::log2(largest))) - cells_.finer,
+                   cells_.leastOctave, kMaxOctave));
     const float scale = perCell(p.octave);
     for (int d = 0; d < 3; ++d) {
         p.low[d] = cellOf(box.centre[d] - box.halfExtent[d], scale);
         p.high[d] = cellOf(box.centre[d] + box.halfExtent[d], scale);
     }
     return p;
-}
-
-template <typename Visitor>
-void BoxIndex::forEachCell(const Placement& p, Visitor&& visit) {
-    for (std::int32_t x = p.low[0]; x <= p.high[0]; ++x)
-        for (std::int32_t y = p.low[1]; y <= p.high[1]; ++y)
-            for (std::int32_t z = p.low[2]; z <= p.high[2]; ++z)
-                visit(keyOf(p.octave, x, y, z));
 }
 
 void BoxIndex::reserve(std::size_t n) {
@@ -41,9 +34,9 @@ void BoxIndex::growTable(std::size_t slots) {
     old.swap(slots_);
     const std::size_t mask = slots_.size() - 1;
     for (const Slot& slot : old) {
-        if (!slot.used) continue;
+        if (!slot.used()) continue;
         std::size_t s = hash(slot.key) & mask;
-        while (slots_[s].used) s = (s + 1) & mask;
+        while (slots_[s].used()) s = (s + 1) & mask;
         slots_[s] = slot;
     }
 }
@@ -53,10 +46,9 @@ BoxIndex::Slot& BoxIndex::findOrAdd(std::uint64_t key) {
         growTable(slots_.empty() ? 256 : 2 * slots_.size());
     const std::size_t mask = slots_.size() - 1;
     std::size_t s = hash(key) & mask;
-    while (slots_[s].used && slots_[s].key != key) s = (s + 1) & mask;
+    while (slots_[s].used() && slots_[s].key != key) s = (s + 1) & mask;
     Slot& slot = slots_[s];
-    if (!slot.used) {
-        slot.used = true;
+    if (!slot.used()) {
         slot.key = key;
         slot.capacityLog2 = 2;
         slot.begin = allocate(slot.capacityLog2);
@@ -65,7 +57,7 @@ BoxIndex::Slot& BoxIndex::findOrAdd(std::uint64_t key) {
     return slot;
 }
 
-std::uint32_t BoxIndex::allocate(std::uint8_t capacityLog2) {
+std::uint32_t BoxIndex::allocate(unsigned capacityLog2) {
     std::vector<std::uint32_t>& unused = free_[capacityLog2];
     if (!unused.empty()) {
         const std::uint32_t begin = unused.back();
@@ -89,15 +81,29 @@ void BoxIndex::add(std::uint64_t key, std::uint32_t i) {
     pool_[slot.begin + slot.count++] = i;
 }
 
-void BoxIndex::remove(std::uint64_t key, std::uint32_t i) {
-    Slot& slot = findOrAdd(key);
-    const auto first = pool_.begin() + slot.begin;
-    const auto last = first + slot.count;
-    std::copy(std::find(first, last, i) + 1, last, std::find(first, last, i));
-    --slot.count;
+bool BoxIndex::remove(std::uint64_t key, std::uint32_t i) {
+    const Slot* found = find(key);
+    if (found == nullptr) return false;
+    const auto first = pool_.begin() + found->begin, last = first + found->count;
+    const auto member = std::find(first, last, i);
+    if (member == last) return false;
+    std::copy(member + 1, last, member);
+    --slots_[static_cast<std::size_t>(found - slots_.data())].count;
+    return true;
 }
 
-void BoxIndex::update(std::uint32_t i, const Box& box) {
+void BoxIndex::count(int octave, int boxes) {
+    std::uint32_t& inOctave = boxesInOctave_[octave - kMinOctave];
+    const bool wasUsed = inOctave > 0;
+    inOctave += static_cast<std::uint32_t>(boxes);
+    if (wasUsed == (inOctave > 0)) return;
+    usedOctaveCount_ = 0;
+    for (int o = 0; o < kOctaves; ++o)
+        if (boxesInOctave_[o] > 0)
+            usedOctaves_[usedOctaveCount_++] = static_cast<std::int8_t>(o + kMinOctave);
+}
+
+bool BoxIndex::replace(std::uint32_t i, const Box& box, bool evenIfSame) {
     if (i > size()) throw std::out_of_range("BoxIndex::update: a gap before it");
     const Placement placement = placementOf(box);
     for (int d = 0; d < 3; ++d) {
@@ -108,24 +114,31 @@ void BoxIndex::update(std::uint32_t i, const Box& box) {
         placements_.push_back(placement);
     } else {
         const Placement old = placements_[i];
-        if (old == placement) return;
-        forEachCell(old, [&](std::uint64_t key) { remove(key, i); });
-        --boxesInOctave_[old.octave - kMinOctave];
+        if (old == placement && !evenIfSame) return false;
+        forEachCell(old, [&](auto... cell) { remove(keyOf(old.octave, cell...), i); });
+        count(old.octave, -1);
         placements_[i] = placement;
     }
-    forEachCell(placement, [&](std::uint64_t key) { add(key, i); });
-    ++boxesInOctave_[placement.octave - kMinOctave];
+    count(placement.octave, 1);
+    return true;
+}
+
+void BoxIndex::update(std::uint32_t i, const Box& box) {
+    if (!replace(i, box, false)) return;
+    const Placement& p = placements_[i];
+    forEachCell(p, [&](auto... cell) { add(keyOf(p.octave, cell...), i); });
 }
 
 void BoxIndex::removeSwap(std::uint32_t i) {
     const auto last = static_cast<std::uint32_t>(size() - 1);
     const Placement gone = placements_.at(i);
-    forEachCell(gone, [&](std::uint64_t key) { remove(key, i); });
-    --boxesInOctave_[gone.octave - kMinOctave];
+    forEachCell(gone, [&](auto... cell) { remove(keyOf(gone.octave, cell...), i); });
+    count(gone.octave, -1);
     if (i != last) {
-        forEachCell(placements_[last], [&](std::uint64_t key) {
-            remove(key, last);
-            add(key, i);
+        const Placement& moved = placements_[last];
+        forEachCell(moved, [&](auto... cell) {
+            const std::uint64_t key = keyOf(moved.octave, cell...);
+            if (remove(key, last)) add(key, i);
         });
         placements_[i] = placements_[last];
     }
@@ -148,7 +161,7 @@ std::pair<double, double> BoxIndex::spanAlong(const double* start,
 }
 
 void BoxIndex::clear() {
-    *this = BoxIndex();
+    *this = BoxIndex(cells_);
 }
 
 std::size_t BoxIndex::liveBytes() const {

@@ -19,6 +19,18 @@ double reachOf(double outlierRatio) {
     return std::sqrt(2 * std::log(1 + 50 * (1 - outlierRatio) / outlierRatio));
 }
 
+/// Octaves by which cells are smaller than patches: most of the cells in a patch's box are
+/// not touched by it.
+constexpr int kFiner = 3;
+
+/// Of a cell twice as large as the space around a thin patch: the many small patches share
+/// this size, for each size in use costs a query a look.
+int octaveOfReach(double softeningStd_m, double outlierRatio) {
+    const double reach_m = std::max(2 * softeningStd_m * reachOf(outlierRatio), 1e-3);
+    return std::clamp(static_cast<int>(std::ceil(std::log2(reach_m))), BoxIndex::kMinOctave,
+                      BoxIndex::kMaxOctave);
+}
+
 /// Variance that the softening adds along an axis [m^2]: all of it across what is thinner,
 /// next to nothing along what is longer.
 double softening(double halfEdge_m2, double softeningVariance_m2) {
@@ -31,7 +43,9 @@ double softening(double halfEdge_m2, double softeningVariance_m2) {
 
 SurfaceLikelihood::SurfaceLikelihood(const Mixture<3>& mixture, double softeningStd_m,
                                      double outlierRatio)
-    : softeningVariance_m2_(softeningStd_m * softeningStd_m), outlierRatio_(outlierRatio) {
+    : softeningVariance_m2_(softeningStd_m * softeningStd_m),
+      outlierRatio_(outlierRatio),
+      boxes_(BoxIndex::Cells{kFiner, octaveOfReach(softeningStd_m, outlierRatio)}) {
     requireInRange("softeningStd_m", softeningStd_m, 0.0, 1e3);
     requireInRange("outlierRatio", outlierRatio, 1e-9, 1.0 - 1e-9);
     reach_ = static_cast<float>(reachOf(outlierRatio));
@@ -88,7 +102,25 @@ void SurfaceLikelihood::enter(const Mixture<3>& mixture, std::uint32_t i) {
     }
     patches_[i] = patch;
     moments_[i] = momentsOf(mixture, i);
-    boxes_.update(i, box);
+    boxes_.update(i, box, [&](const float* centre, float halfEdge) {
+        return touches(patch, centre, halfEdge);
+    });
+}
+
+bool SurfaceLikelihood::touches(const Patch& patch, const float* centre,
+                                float halfEdge) const {
+    for (int a = 0; a < 3; ++a) {
+        const std::array<float, 3>& axis = patch.axes[a];
+        float along = 0, ofCube = 0;
+        for (int d = 0; d < 3; ++d) {
+            along += axis[d] * (centre[d] - patch.mean[d]);
+            ofCube += halfEdge * std::abs(axis[d]);
+        }
+        const float ofPatch = a == 0 ? 0.F : patch.halfEdge[a - 1];
+        // A margin for rounding.
+        if (std::abs(along) > 1.001F * (ofPatch + reach_ + ofCube)) return false;
+    }
+    return true;
 }
 
 inline float SurfaceLikelihood::squaredDistance(const Patch& patch, float x, float y,

@@ -20,13 +20,30 @@ namespace hgmm {
 /// contiguously.
 class BoxIndex {
  public:
+    static constexpr int kMinOctave = -10, kMaxOctave = 20;
+
     struct Box {
         std::array<float, 3> centre{};      ///< [m]
         std::array<float, 3> halfExtent{};  ///< [m], >= 0
     };
 
+    /// How large cells are.
+    struct Cells {
+        int finer = 0;  ///< octaves below those of boxes [octave]
+        /// Boxes so small share cells of 2^leastOctave metres, in [-10, 20].
+        int leastOctave = kMinOctave;
+    };
+
+    BoxIndex() = default;
+    explicit BoxIndex(const Cells& cells) : cells_(cells) {}
+
     /// Enters or re-enters box i, which must be < size() or the next one.
     void update(std::uint32_t i, const Box& box);
+    /// The same for a body inside its box: enters it in the cells that it touches.
+    /// @param touches touches(centre, halfEdge) tells it of a cube, const float* and float
+    /// [m]; it may err for cubes that are only nearly touched
+    template <typename Touches>
+    void update(std::uint32_t i, const Box& box, Touches&& touches);
     /// Box i goes; the last one takes its number.
     void removeSwap(std::uint32_t i);
     void clear();
@@ -62,15 +79,16 @@ class BoxIndex {
     };
     /// A cell's members are pool_[begin .. begin + count); room for 1 << capacityLog2.
     struct Slot {
-        std::uint64_t key = 0;
+        std::uint64_t key = kUnused;
         std::uint32_t begin = 0;
-        std::uint32_t count = 0;
-        std::uint8_t capacityLog2 = 0;
-        bool used = false;
+        std::uint32_t count : 27;
+        std::uint32_t capacityLog2 : 5;
+        Slot() : count(0), capacityLog2(0) {}
+        bool used() const { return key != kUnused; }
     };
 
+    static constexpr std::uint64_t kUnused = ~std::uint64_t{0};  ///< no cell has this key
     static constexpr float kFar = std::numeric_limits<float>::max();
-    static constexpr int kMinOctave = -10, kMaxOctave = 20;
     static constexpr int kOctaves = kMaxOctave - kMinOctave + 1;
 
     static std::uint64_t keyOf(int octave, std::int32_t x, std::int32_t y, std::int32_t z) {
@@ -93,22 +111,31 @@ class BoxIndex {
     }
     static float perCell(int octave) { return static_cast<float>(powerOfTwo(-octave)); }
 
-    static Placement placementOf(const Box& box);
+    Placement placementOf(const Box& box) const;
     template <typename Visitor>
     static void forEachCell(const Placement& p, Visitor&& visit);
+    /// Counts a box in or out.
+    void count(int octave, int boxes);
+    /// The old placement, if there was one, is left; false if nothing needs to be entered.
+    bool replace(std::uint32_t i, const Box& box, bool evenIfSame);
     const Slot* find(std::uint64_t key) const;
     Slot& findOrAdd(std::uint64_t key);
     void growTable(std::size_t slots);
-    std::uint32_t allocate(std::uint8_t capacityLog2);
+    std::uint32_t allocate(unsigned capacityLog2);
     void add(std::uint64_t key, std::uint32_t i);
-    void remove(std::uint64_t key, std::uint32_t i);
+    /// False if it was not there.
+    bool remove(std::uint64_t key, std::uint32_t i);
 
+    Cells cells_;
     std::vector<Placement> placements_;
     std::vector<Slot> slots_;
     std::size_t usedSlots_ = 0;
     std::vector<std::uint32_t> pool_;
     std::array<std::vector<std::uint32_t>, 32> free_;  ///< begins of unused runs, by size
     std::array<std::uint32_t, kOctaves> boxesInOctave_{};
+    std::array<std::int8_t, kOctaves>
+        usedOctaves_{};  ///< the first usedOctaveCount_, rising
+    int usedOctaveCount_ = 0;
     /// Around all boxes that were ever entered.
     std::array<float, 3> low_{kFar, kFar, kFar}, high_{-kFar, -kFar, -kFar};
 };
@@ -116,16 +143,34 @@ class BoxIndex {
 inline const BoxIndex::Slot* BoxIndex::find(std::uint64_t key) const {
     const std::size_t mask = slots_.size() - 1;
     for (std::size_t s = hash(key) & mask;; s = (s + 1) & mask) {
-        if (!slots_[s].used) return nullptr;
+        if (!slots_[s].used()) return nullptr;
         if (slots_[s].key == key) return &slots_[s];
     }
 }
 
 template <typename Visitor>
+void BoxIndex::forEachCell(const Placement& p, Visitor&& visit) {
+    for (std::int32_t x = p.low[0]; x <= p.high[0]; ++x)
+        for (std::int32_t y = p.low[1]; y <= p.high[1]; ++y)
+            for (std::int32_t z = p.low[2]; z <= p.high[2]; ++z) visit(x, y, z);
+}
+
+template <typename Touches>
+void BoxIndex::update(std::uint32_t i, const Box& box, Touches&& touches) {
+    replace(i, box, true);
+    const Placement& p = placements_[i];
+    const auto edge = static_cast<float>(powerOfTwo(p.octave));
+    forEachCell(p, [&](std::int32_t x, std::int32_t y, std::int32_t z) {
+        const float centre[3] = {(float(x) + 0.5F) * edge, (float(y) + 0.5F) * edge,
+                                 (float(z) + 0.5F) * edge};
+        if (touches(centre, 0.5F * edge)) add(keyOf(p.octave, x, y, z), i);
+    });
+}
+
+template <typename Visitor>
 void BoxIndex::visitCandidates(float x, float y, float z, Visitor&& visit) const {
-    for (int o = 0; o < kOctaves; ++o) {
-        if (boxesInOctave_[o] == 0) continue;
-        const int octave = o + kMinOctave;
+    for (int o = 0; o < usedOctaveCount_; ++o) {
+        const int octave = usedOctaves_[o];
         const float scale = perCell(octave);
         const Slot* slot =
             find(keyOf(octave, cellOf(x, scale), cellOf(y, scale), cellOf(z, scale)));
@@ -138,9 +183,8 @@ void BoxIndex::visitCandidates(float x, float y, float z, Visitor&& visit) const
 template <typename Visitor>
 void BoxIndex::visitAlongRay(const float* start, const float* direction, float length,
                              Visitor&& visit) const {
-    for (int o = 0; o < kOctaves; ++o) {
-        if (boxesInOctave_[o] == 0) continue;
-        const int octave = o + kMinOctave;
+    for (int o = 0; o < usedOctaveCount_; ++o) {
+        const int octave = usedOctaves_[o];
         const float scale = perCell(octave);
         // Steps from one cell boundary to the next, along whichever axis comes first.
         std::array<std::int32_t, 3> cell{};

@@ -55,6 +55,8 @@ class SurfaceLikelihood {
 
     static Moments momentsOf(const Mixture<3>& mixture, std::size_t i);
     void enter(const Mixture<3>& mixture, std::uint32_t i);
+    /// Whether a cube may hold points that the patch has a say in.
+    bool touches(const Patch& patch, const float* centre, float halfEdge) const;
     static float squaredDistance(const Patch& patch, float x, float y, float z);
 
     double softeningVariance_m2_;
