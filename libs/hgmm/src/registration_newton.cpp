@@ -81,6 +81,14 @@ class HeldDirections {
     Vector6d projected(const Vector6d& v) const {
         return projector_ * scale_.cwiseProduct(v);
     }
+    /// The step that takes directions that are not held to the minimum of a quadratic cost
+    /// of that gradient and curvature by (w, v).
+    Vector6d stepElsewhere(const CostSums& quadratic) const {
+        const Matrix6d free = Matrix6d::Identity() - projector_;
+        const Matrix6d curvature = free * scaled(quadratic.hessian) * free + projector_;
+        const Vector6d slope = free * scale_.cwiseProduct(quadratic.gradient);
+        return step(-free * curvature.ldlt().solve(slope));
+    }
     /// (w, v) of a step in these coordinates.
     Vector6d step(const Vector6d& v) const { return scale_.cwiseProduct(v); }
     /// Covariance of (w, v) from that in the held directions; the others are unknown.
@@ -188,6 +196,21 @@ StageEnd runStage(const TargetLayers& target, const Reach& reach,
         }
     }
     return end;
+}
+
+void leaveAsGuessed(const TargetLayers& target, const Reach& reach,
+                    const RegistrationSource& source, const PosePrior& prior,
+                    Pose& T_target_centre) {
+    const auto neighbours = target.associate(source, reach, T_target_centre);
+    const CostSums sums = target.sums(source, neighbours, T_target_centre);
+    const HeldDirections held(sums.gaussNewton, sums.facing, source.lever_m);
+    if (held.count() == 0 || held.count() == 6) return;
+    CostSums quadratic;
+    prior.addTo(quadratic, T_target_centre);
+    const Pose T_back = moved(T_target_centre, held.stepElsewhere(quadratic));
+    const double cost =
+        target.cost(source, target.associate(source, reach, T_back), T_back);
+    if (cost <= (1.0 - kHeldShare) * sums.cost) T_target_centre = T_back;
 }
 
 Matrix6d poseCovariance(const TargetLayers& target, const Reach& reach,

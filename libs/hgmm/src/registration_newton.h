@@ -34,6 +34,12 @@ StageEnd runStage(const TargetLayers& target, const Reach& reach,
                   const RegistrationSource& source, const PosePrior& prior,
                   Pose& T_target_centre, int maxIterations);
 
+/// Takes directions that the target does not hold back to where the prior is highest,
+/// unless the cost says that it does hold them.
+void leaveAsGuessed(const TargetLayers& target, const Reach& reach,
+                    const RegistrationSource& source, const PosePrior& prior,
+                    Pose& T_target_centre);
+
 /// Covariance of (w, v), about the source's centre, at the minimum of a stage: inverse
 /// Hessian on both sides of the scatter of the gradient (the "sandwich" of M-estimation),
 /// which needs neither units for the cost nor a model of the noise.

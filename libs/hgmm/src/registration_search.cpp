@@ -140,6 +140,10 @@ SearchEnd searchPose(const TargetLayers& target, const RegistrationParams& param
                     last ? 0.0 : kGuessShare * reach.width_m / stages.front().width_m);
         forEach(candidates, [&](Candidate& c) { rate(target, reach, some, prior, c); });
         keepBest(candidates, last ? 1 : most, kSame * reach.width_m, source.lever_m);
+        if (last)
+            leaveAsGuessed(target, reach, some,
+                           priorOf(params, T_target_source_guess, some, 1.0),
+                           candidates.front().T);
         const int steps = candidates.size() > 1
                               ? std::min(kStepsOfMany, params.maxStageIterations)
                               : params.maxStageIterations;
