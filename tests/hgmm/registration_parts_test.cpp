@@ -6,6 +6,7 @@
 #include <random>
 
 #include "../../libs/hgmm/src/registration_newton.h"
+#include "../../libs/hgmm/src/registration_search.h"
 #include "patches.h"
 
 namespace hgmm {
@@ -108,10 +109,89 @@ TEST(RegistrationParts, NoStepRaisesTheCost) {
             T = displaced(T, 2 * width_m, 0.3 * width_m, random);
             const auto neighbours = layers.associate(source, {width_m, 0.0}, T);
             const double before = layers.cost(source, neighbours, T);
-            runStage(layers, {width_m, 0.0}, source, T, 1);
+            runStage(layers, {width_m, 0.0}, source, {}, T, 1);
             EXPECT_LE(layers.cost(source, neighbours, T), before);
         }
     }
+}
+
+TEST(RegistrationParts, PriorIsOfTheSourcesFrame) {
+    std::mt19937_64 random(6);
+    PosePrior prior;
+    prior.T_target_source_guess = somePose();
+    prior.centre = {4, -2, 1};
+    prior.deviation = {0.5, 0.3};
+    prior.weight = 7;
+    const Pose turned = displaced(somePose(), 0.0, 0.3, random);
+    const Pose shifted = displaced(somePose(), 0.5, 0.0, random);
+    const auto ofCentre = [&](Pose T) {
+        T.t += T.R * prior.centre;
+        return T;
+    };
+    EXPECT_NEAR(prior.cost(ofCentre(somePose())), 0.0, 1e-12);
+    EXPECT_NEAR(prior.cost(ofCentre(turned)), 3.5, 1e-9);  // one deviation
+    EXPECT_NEAR(prior.cost(ofCentre(shifted)), 3.5, 1e-9);
+
+    const Pose T = ofCentre(displaced(somePose(), 0.4, 0.02, random));
+    CostSums sums;
+    prior.addTo(sums, T);
+    EXPECT_DOUBLE_EQ(sums.cost, prior.cost(T));
+    constexpr double h = 1e-6;
+    for (int a = 0; a < 6; ++a) {
+        const auto at = [&](double d) {
+            Vector6d step = Vector6d::Zero();
+            step[a] = d;
+            return prior.cost({rotationOf(step.head<3>()) * T.R, T.t + step.tail<3>()});
+        };
+        // Gauss-Newton's: of the first order in the rotation.
+        EXPECT_NEAR(sums.gradient[a], (at(h) - at(-h)) / (2 * h), 0.02 * 7 / 0.3);
+    }
+}
+
+TEST(RegistrationParts, ThinnedSourcesHalve) {
+    std::mt19937_64 random(7);
+    Mixture<3> mixture;
+    tile({5, 1, 2}, {4, 0, 0}, {0, 4, 0}, 0.2, random, mixture);
+    tile({5, 1, 2}, {0.4, 0, 0}, {0, 0, 0.4}, 0.02, random, mixture);  // crowded
+    const RegistrationSource whole(mixture);
+    const auto sources = thinnedSources(whole);
+    ASSERT_GE(sources.size(), 3U);
+    EXPECT_EQ(sources.back().size(), whole.size());
+    EXPECT_LE(sources.front().size(), 400U);
+    EXPECT_GE(sources.front().size(), 100U);
+    for (std::size_t s = 0; s + 1 < sources.size(); ++s) {
+        EXPECT_LT(sources[s].size(), sources[s + 1].size());
+        EXPECT_GT(2.5 * double(sources[s].size()), 0.5 * double(sources[s + 1].size()));
+        EXPECT_EQ(sources[s].centre, whole.centre);
+        EXPECT_EQ(sources[s].lever_m, whole.lever_m);
+    }
+    // What is crowded does not stay so.
+    const auto crowded = [](const RegistrationSource& source) {
+        return double(std::count_if(
+                   source.mean.begin(), source.mean.end(),
+                   [&](const Eigen::Vector3d& m) {
+                       return (m + source.centre - Eigen::Vector3d(5, 1, 2)).norm() < 0.6;
+                   })) /
+               double(source.size());
+    };
+    EXPECT_GT(crowded(whole), 0.4);
+    EXPECT_LT(crowded(sources.front()), 0.15);
+}
+
+TEST(RegistrationParts, LatticeCoversTheBall) {
+    RegistrationParams params;
+    const auto nodes = rotationLattice(params);
+    std::mt19937_64 random(8);
+    for (int trial = 0; trial < 100; ++trial) {
+        const Eigen::Vector3d w =
+            params.coarseAngle_rad * 0.8 * unitUniform(random) * direction(random);
+        double nearest = 1e9;
+        for (const Eigen::Vector3d& node : nodes)
+            nearest = std::min(nearest, (node - w).norm());
+        EXPECT_LE(nearest, params.coarseAngle_rad / 3);
+    }
+    for (const Eigen::Vector3d& node : nodes)
+        EXPECT_LE(node.norm(), params.coarseAngle_rad + 1e-12);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "hgmm/require.h"
 #include "registration_layers.h"
 #include "registration_newton.h"
+#include "registration_search.h"
 #include "require_rigid.h"
 
 namespace hgmm {
@@ -16,24 +17,7 @@ namespace {
 /// The widest layer, for components far from the centre, in coarse widths.
 constexpr double kFarWidths = 8.0;
 /// A coarser level with less is too coarse to hold a pose.
-constexpr std::size_t kFewestComponents = 200;
-
-/// Coarse to fine, in equal ratios.
-std::vector<Reach> stagesOf(const RegistrationParams& p) {
-    const double span =
-        std::max(p.coarseWidth_m / p.fineWidth_m, p.coarseAngle_rad / p.fineAngle_rad);
-    const int steps = static_cast<int>(std::ceil(std::log2(span) - 1e-9));
-    std::vector<Reach> stages;
-    for (int s = 0; s <= steps; ++s) {
-        const double done = steps > 0 ? double(s) / steps : 1.0;
-        const auto between = [done](double from, double to) {
-            return from * std::pow(to / from, done);
-        };
-        stages.push_back({between(p.coarseWidth_m, p.fineWidth_m),
-                          between(p.coarseAngle_rad, p.fineAngle_rad)});
-    }
-    return stages;
-}
+constexpr std::size_t kFewestInLevel = 200;
 
 void requireLevels(const std::vector<const Mixture<3>*>& levels) {
     if (levels.empty()) throw std::invalid_argument("registration: no target level");
@@ -75,7 +59,6 @@ void RegistrationParams::validate() const {
 
 struct RegistrationTarget::Impl {
     RegistrationParams params;
-    std::vector<Reach> stages;  ///< coarse to fine
     TargetLayers layers;
 };
 
@@ -85,7 +68,6 @@ RegistrationTarget::RegistrationTarget(const std::vector<const Mixture<3>*>& lev
     requireLevels(levels);
     auto impl = std::make_unique<Impl>();
     impl->params = params;
-    impl->stages = stagesOf(params);
     // Layers an octave apart, each of the next coarser level as long as that has detail.
     std::size_t level = levels.size() - 1;
     auto shapes = std::make_unique<Shapes>(*levels[level]);
@@ -93,7 +75,7 @@ RegistrationTarget::RegistrationTarget(const std::vector<const Mixture<3>*>& lev
     for (double width_m = params.fineWidth_m;; width_m *= 2.0) {
         impl->layers.push(*shapes, width_m);
         if (width_m >= widest_m) break;
-        if (level == 0 || levels[level - 1]->size() < kFewestComponents) continue;
+        if (level == 0 || levels[level - 1]->size() < kFewestInLevel) continue;
         shapes = std::make_unique<Shapes>(*levels[--level]);
     }
     impl_ = std::move(impl);
@@ -111,22 +93,20 @@ Registration RegistrationTarget::align(const Mixture<3>& mixture,
     Registration result;
     result.T_target_source = T_target_source_guess;
     result.covariance = unobservableCovariance();
-    Pose T = T_target_source_guess;  // of the source's centre
-    T.t += T.R * source.centre;
-    StageEnd end;
-    for (const Reach& reach : impl_->stages) {
-        end = runStage(impl_->layers, reach, source, T, params.maxStageIterations);
-        result.iterations += end.iterations;
-    }
+    const SearchEnd found =
+        searchPose(impl_->layers, params, source, T_target_source_guess);
+    const StageEnd& end = found.last;
+    result.iterations = found.iterations;
     if (end.overlap == 0.0) return result;
 
     result.overlap = end.overlap;
     result.cost = end.cost;
     result.converged = end.converged && end.overlap >= params.minOverlap;
+    const Pose& T = found.T_target_centre;
     const Eigen::Vector3d centre_target = T.R * source.centre;
     result.T_target_source = {T.R, T.t - centre_target};
     result.covariance = aboutOrigin(
-        poseCovariance(impl_->layers, impl_->stages.back(), source, T), centre_target);
+        poseCovariance(impl_->layers, stagesOf(params).back(), source, T), centre_target);
     return result;
 }
 
@@ -140,9 +120,10 @@ Registration registerMixtures(const std::vector<const Mixture<3>*>& targetLevels
     double radius2 = 0.0;
     for (const Eigen::Vector3d& m : components.mean)
         radius2 = std::max(radius2, m.squaredNorm());
-    // The guess may be off by a few widths.
-    const double radius_m =
-        1.2 * std::sqrt(radius2) + 3.0 * params.coarseWidth_m * kFarWidths;
+    // The guess may be off by a few widths, and turned about the source's frame.
+    const double radius_m = 1.2 * std::sqrt(radius2) +
+                            3.0 * params.coarseWidth_m * kFarWidths +
+                            params.coarseAngle_rad * components.centre.norm();
     const Eigen::Vector3d centre =
         T_target_source_guess.R * components.centre + T_target_source_guess.t;
     std::vector<Mixture<3>> levels;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace hgmm {
 
@@ -83,6 +84,22 @@ double RegistrationSource::shareOf(const std::vector<Neighbours>& neighbours) co
         if (!neighbours[i].none()) found += support[i];
     }
     return total > 0.0 ? found / total : 0.0;
+}
+
+RegistrationSource RegistrationSource::thinned(double cell_m) const {
+    RegistrationSource few;
+    few.centre = centre;
+    few.lever_m = lever_m;
+    std::set<std::array<std::int64_t, 3>> taken;
+    for (std::size_t i = 0; i < size(); ++i) {
+        std::array<std::int64_t, 3> cell;
+        for (int k = 0; k < 3; ++k) cell[k] = std::llround(mean[i][k] / cell_m);
+        if (!taken.insert(cell).second) continue;
+        few.mean.push_back(mean[i]);
+        few.covariance.push_back(covariance[i]);
+        few.support.push_back(support[i]);
+    }
+    return few;
 }
 
 Shapes::Shapes(const Mixture<3>& mixture) {

@@ -31,12 +31,17 @@ struct RegistrationSource {
     std::size_t size() const { return mean.size(); }
     /// Share of the support that has a neighbour, in [0, 1]; 0 for an empty source.
     double shareOf(const std::vector<Neighbours>& neighbours) const;
+    /// The first component of each cell of a grid, about the same centre.
+    RegistrationSource thinned(double cell_m) const;
 
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the means [m]
     double lever_m = 0.0;                              ///< their rms distance from it, > 0
     std::vector<Eigen::Vector3d> mean;                 ///< less the centre
     std::vector<Eigen::Matrix3d> covariance;
     std::vector<double> support;  ///< [count]
+
+ private:
+    RegistrationSource() = default;
 };
 
 /// Principal axes of a mixture's finite components.

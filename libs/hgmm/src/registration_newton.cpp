@@ -1,6 +1,7 @@
 #include "registration_newton.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <Eigen/Jacobi>
 #include <algorithm>
 #include <cmath>
@@ -80,6 +81,14 @@ class HeldDirections {
     Vector6d projected(const Vector6d& v) const {
         return projector_ * scale_.cwiseProduct(v);
     }
+    /// The step that takes directions that are not held to the minimum of a quadratic cost
+    /// of that gradient and curvature by (w, v).
+    Vector6d stepElsewhere(const CostSums& quadratic) const {
+        const Matrix6d free = Matrix6d::Identity() - projector_;
+        const Matrix6d curvature = free * scaled(quadratic.hessian) * free + projector_;
+        const Vector6d slope = free * scale_.cwiseProduct(quadratic.gradient);
+        return step(-free * curvature.ldlt().solve(slope));
+    }
     /// (w, v) of a step in these coordinates.
     Vector6d step(const Vector6d& v) const { return scale_.cwiseProduct(v); }
     /// Covariance of (w, v) from that in the held directions; the others are unknown.
@@ -125,20 +134,51 @@ Vector6d newtonStep(const CostSums& sums, const HeldDirections& held, double wid
 
 }  // namespace
 
+Vector6d PosePrior::normalisedError(const Pose& T) const {
+    const Eigen::AngleAxisd turned(
+        Eigen::Matrix3d(T.R * T_target_source_guess.R.transpose()));
+    Vector6d error;
+    error << turned.angle() / deviation.angle_rad * turned.axis(),
+        (T.t - T.R * centre - T_target_source_guess.t) / deviation.width_m;
+    return error;
+}
+
+double PosePrior::cost(const Pose& T_target_centre) const {
+    return weight > 0.0 ? 0.5 * weight * normalisedError(T_target_centre).squaredNorm()
+                        : 0.0;
+}
+
+void PosePrior::addTo(CostSums& sums, const Pose& T_target_centre) const {
+    if (!(weight > 0.0)) return;
+    const Vector6d error = normalisedError(T_target_centre);
+    // A turn w about the source's centre moves its frame by w x (-R centre).
+    Matrix6d J = Matrix6d::Zero();
+    J.topLeftCorner<3, 3>() = Eigen::Matrix3d::Identity() / deviation.angle_rad;
+    J.bottomLeftCorner<3, 3>() =
+        crossMatrix(T_target_centre.R * centre) / deviation.width_m;
+    J.bottomRightCorner<3, 3>() = Eigen::Matrix3d::Identity() / deviation.width_m;
+    const Matrix6d curvature = weight * J.transpose() * J;
+    sums.cost += 0.5 * weight * error.squaredNorm();
+    sums.gradient += weight * J.transpose() * error;
+    sums.hessian += curvature;
+    sums.gaussNewton += curvature;
+}
+
 StageEnd runStage(const TargetLayers& target, const Reach& reach,
-                  const RegistrationSource& source, Pose& T_target_centre,
-                  int maxIterations) {
+                  const RegistrationSource& source, const PosePrior& prior,
+                  Pose& T_target_centre, int maxIterations) {
     const double lever_m = source.lever_m, width_m = reach.at(lever_m),
                  smallest_m = kSmallestStep * width_m;
     StageEnd end;
     while (end.iterations < maxIterations && !end.converged) {
         const auto neighbours = target.associate(source, reach, T_target_centre);
         end.overlap = source.shareOf(neighbours);
-        const CostSums sums = target.sums(source, neighbours, T_target_centre);
+        CostSums sums = target.sums(source, neighbours, T_target_centre);
         end.cost = source.size() == 0 ? 0.0 : sums.cost / double(source.size());
         if (!(sums.cost < 0.0)) return end;
         const HeldDirections held(sums.gaussNewton, sums.facing, lever_m);
         if (held.count() == 0) return end;
+        prior.addTo(sums, T_target_centre);
         ++end.iterations;
 
         Vector6d step = newtonStep(sums, held, width_m, lever_m);
@@ -148,13 +188,29 @@ StageEnd runStage(const TargetLayers& target, const Reach& reach,
                 break;
             }
             const Pose T_next = moved(T_target_centre, step);
-            const double cost = target.cost(source, neighbours, T_next);
+            const double cost =
+                target.cost(source, neighbours, T_next) + prior.cost(T_next);
             if (!(cost < sums.cost)) continue;
             T_target_centre = T_next;
             break;
         }
     }
     return end;
+}
+
+void leaveAsGuessed(const TargetLayers& target, const Reach& reach,
+                    const RegistrationSource& source, const PosePrior& prior,
+                    Pose& T_target_centre) {
+    const auto neighbours = target.associate(source, reach, T_target_centre);
+    const CostSums sums = target.sums(source, neighbours, T_target_centre);
+    const HeldDirections held(sums.gaussNewton, sums.facing, source.lever_m);
+    if (held.count() == 0 || held.count() == 6) return;
+    CostSums quadratic;
+    prior.addTo(quadratic, T_target_centre);
+    const Pose T_back = moved(T_target_centre, held.stepElsewhere(quadratic));
+    const double cost =
+        target.cost(source, target.associate(source, reach, T_back), T_back);
+    if (cost <= (1.0 - kHeldShare) * sums.cost) T_target_centre = T_back;
 }
 
 Matrix6d poseCovariance(const TargetLayers& target, const Reach& reach,

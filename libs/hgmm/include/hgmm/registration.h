@@ -8,9 +8,9 @@
 
 namespace hgmm {
 
-/// How two mixtures are aligned (RegistrationTarget): how far off the pose may be in the
-/// first stage, one standard deviation, and to what it is resolved in the last. Stages
-/// between halve the wider span.
+/// How two mixtures are aligned (RegistrationTarget): how far off the guessed pose of the
+/// source's frame may be, one standard deviation, and to what it is resolved in the last
+/// stage. Stages between halve the wider span.
 struct RegistrationParams {
     double coarseWidth_m = 0.5;    ///< error of the guess' position [m], >= fineWidth_m
     double coarseAngle_rad = 0.3;  ///< error of its rotation [rad], >= fineAngle_rad
@@ -35,7 +35,7 @@ struct Registration {
     /// identity times these where nothing was found.
     Covariance covariance = Covariance::Identity();
     bool converged = false;  ///< with at least minOverlap
-    int iterations = 0;      ///< of all stages
+    int iterations = 0;      ///< of all stages and candidates
     double overlap = 0.0;    ///< share of the source's components near a target's, [0, 1]
     double cost = 0.0;       ///< of the last stage, <= 0: see RegistrationTarget
 };
@@ -45,7 +45,8 @@ constexpr double kUnobservable_rad = 1.0;  ///< standard deviation [rad]
 
 /// A mixture made ready for others to be aligned with it, at a cost that does not depend on
 /// its size: distribution to distribution (Stoyanov et al. 2012) in stages of falling
-/// width.
+/// width, from many rotations about the source's frame, of which half are given up at each
+/// stage.
 ///
 /// Each stage minimises, over the pose (R, t),
 ///   - sum_ij w_i exp(-1/2 mu_ij^T (R S_i R^T + S'_j)^-1 mu_ij),  mu_ij = R m_i + t - m_j,
@@ -53,7 +54,9 @@ constexpr double kUnobservable_rad = 1.0;  ///< standard deviation [rad]
 /// next to it: what has no counterpart adds nothing. S'_j is S_j widened by the
 /// stage's width across the component and, by the component's aspect, more along it (the
 /// plane-to-plane idea of generalised ICP, Segal et al. 2009): a flat component holds the
-/// source along its normal and lets it slide along the surface.
+/// source along its normal and lets it slide along the surface. All stages but the last add
+/// a weak normal prior about the guess: more overlap alone would let the source slide away
+/// from it.
 ///
 /// Steps are Newton's with the full Hessian where it is positive definite, else with its
 /// Gauss-Newton part, damped, no longer than the stage's width, and halved until the cost
@@ -70,7 +73,9 @@ class RegistrationTarget {
     RegistrationTarget& operator=(RegistrationTarget&&) noexcept;
     ~RegistrationTarget();
 
-    /// Aligns `source`, a mixture or the samples of a scan (filterScan), from a guess.
+    /// Aligns `source`, a mixture or the samples of a scan (filterScan), from a guess. The
+    /// guess' rotation is taken to be off about the source's origin, as a sensor's is: a
+    /// source far from its origin is off by as much more.
     /// Where nothing is found within reach the guess comes back, not converged. The result
     /// does not depend on the number of threads. Thread-safe. Throws std::invalid_argument
     /// for a guess that is not finite or whose rotation is not orthonormal to 1e-4.
