@@ -29,6 +29,7 @@ class LeafTable {
         std::size_t slots = 1024;
         while (slots < points / 8) slots *= 2;
         slots_.assign(slots, kFree);
+        leaves_.reserve(std::min(points, slots / 2));
     }
 
     /// Number of the leaf of a key; a new one is anchored at (x, y, z).
@@ -83,8 +84,9 @@ inline std::uint64_t leafKey(int octave, Four point) {
 }
 
 /// The leaves of the points that are in range, each with its sums.
+/// @tparam inPlace adds to the leaf itself: where few neighbouring points share one
 /// @param add add(sums, i, dx, dy, dz) adds point i, so far from the anchor [m]
-template <typename Sums, typename Add>
+template <typename Sums, bool inPlace = false, typename Add>
 LeafTable<Sums> sumLeaves(const Scan& scan, const FilterParams& params,
                           FilterCounts& counted, Add&& add) {
     // An edge of c sqrt(r) has the octave of its fourth power c^4 r^2, divided by four.
@@ -110,16 +112,17 @@ LeafTable<Sums> sumLeaves(const Scan& scan, const FilterParams& params,
         const int octave = octaveOf(std::max(minLeaf4, leafAtOneMetre4 * range2)) >> 2;
         const std::uint64_t key = leafKey(octave, Four{x, y, z, 0.F});
         if (key != current) {
-            if (counted.used > 0) table[leaf].sums = sums;
+            if (!inPlace && counted.used > 0) table[leaf].sums = sums;
             current = key;
             leaf = table.find(key, x, y, z);
             anchor = {table[leaf].anchor[0], table[leaf].anchor[1], table[leaf].anchor[2]};
-            sums = table[leaf].sums;
+            if (!inPlace) sums = table[leaf].sums;
         }
-        add(sums, i, x - anchor[0], y - anchor[1], z - anchor[2]);
+        add(inPlace ? table[leaf].sums : sums, i, x - anchor[0], y - anchor[1],
+            z - anchor[2]);
         ++counted.used;
     }
-    if (counted.used > 0) table[leaf].sums = sums;
+    if (!inPlace && counted.used > 0) table[leaf].sums = sums;
     return table;
 }
 

@@ -49,7 +49,9 @@ std::vector<LinearRegion> regionsOf(const std::vector<std::uint32_t>& own,
                                     const Eigen::Vector3d& sensorOrigin,
                                     const CellParams& params) {
     std::vector<LinearRegion> regions;
+    regions.reserve(own.size() / 4 + 1);
     std::unordered_map<std::uint32_t, std::uint32_t> ofComponent;
+    ofComponent.reserve(own.size() / 8);
     std::vector<std::uint32_t> novel;
     std::array<std::vector<float>, 3> novelMeans;
     for (std::uint32_t i = 0; i < own.size(); ++i) {
