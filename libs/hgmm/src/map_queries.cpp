@@ -42,9 +42,7 @@ double Map::logDensity(const Eigen::Vector3d& point_map) const {
     const ComponentIndex& index = derived_->index(*this);
     const Eigen::Vector3f p = (point_map - origin_).cast<float>();
     double density = -std::numeric_limits<double>::infinity();
-    constexpr float reach2 = ComponentIndex::kSigmas * ComponentIndex::kSigmas;
     index.visitCandidates(p.x(), p.y(), p.z(), [&](std::uint32_t j) {
-        if (!index.factor(j).isWithin(p.data(), reach2)) return;
         density = logAddExp(density, std::log(double(model_.surfaces.support[j])) +
                                          double(index.factor(j).logPdf(p.data())));
     });
