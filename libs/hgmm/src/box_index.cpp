@@ -42,8 +42,7 @@ void BoxIndex::growTable(std::size_t slots) {
 }
 
 BoxIndex::Slot& BoxIndex::findOrAdd(std::uint64_t key) {
-    if (2 * (usedSlots_ + 1) > slots_.size())
-        growTable(slots_.empty() ? 256 : 2 * slots_.size());
+    if (2 * (usedSlots_ + 1) > slots_.size()) growTable(2 * slots_.size());
     const std::size_t mask = slots_.size() - 1;
     std::size_t s = hash(key) & mask;
     while (slots_[s].used() && slots_[s].key != key) s = (s + 1) & mask;
@@ -105,6 +104,7 @@ void BoxIndex::count(int octave, int boxes) {
 
 bool BoxIndex::replace(std::uint32_t i, const Box& box, bool evenIfSame) {
     if (i > size()) throw std::out_of_range("BoxIndex::update: a gap before it");
+    if (slots_.empty()) growTable(256);
     const Placement placement = placementOf(box);
     for (int d = 0; d < 3; ++d) {
         low_[d] = std::min(low_[d], box.centre[d] - box.halfExtent[d]);

@@ -3,8 +3,8 @@
 
 namespace hgmm {
 
-/// Four numbers in a register: vectors of GCC and Clang, which unlike Eigen's arrays are
-/// put together from scalars without a detour through memory.
+/// Numbers in a register of 16 bytes: vectors of GCC and Clang, which unlike Eigen's arrays
+/// are put together from scalars without a detour through memory.
 typedef float Four __attribute__((vector_size(16)));
 typedef std::int32_t FourInts __attribute__((vector_size(16)));
 typedef double Two __attribute__((vector_size(16)));

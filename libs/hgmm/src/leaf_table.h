@@ -32,8 +32,8 @@ class LeafTable {
         leaves_.reserve(std::min(points, slots / 2));
     }
 
-    /// Number of the leaf of a key; a new one is anchored at (x, y, z).
-    std::uint32_t find(std::uint64_t key, float x, float y, float z) {
+    /// The leaf of a key, until the next call; a new one is anchored at (x, y, z).
+    Leaf<Sums>& find(std::uint64_t key, float x, float y, float z) {
         const std::size_t mask = slots_.size() - 1;
         for (std::size_t slot = hash(key) & mask;; slot = (slot + 1) & mask) {
             if (slots_[slot] == kFree) {
@@ -44,11 +44,11 @@ class LeafTable {
                 slots_[slot] = static_cast<std::uint32_t>(leaves_.size());
                 leaves_.push_back({key, {x, y, z}, {}});
             }
-            if (leaves_[slots_[slot]].key == key) return slots_[slot];
+            Leaf<Sums>& leaf = leaves_[slots_[slot]];
+            if (leaf.key == key) return leaf;
         }
     }
 
-    Leaf<Sums>& operator[](std::uint32_t i) { return leaves_[i]; }
     const std::vector<Leaf<Sums>>& leaves() const { return leaves_; }
 
  private:
@@ -84,9 +84,8 @@ inline std::uint64_t leafKey(int octave, Four point) {
 }
 
 /// The leaves of the points that are in range, each with its sums.
-/// @tparam inPlace adds to the leaf itself: where few neighbouring points share one
 /// @param add add(sums, i, dx, dy, dz) adds point i, so far from the anchor [m]
-template <typename Sums, bool inPlace = false, typename Add>
+template <typename Sums, typename Add>
 LeafTable<Sums> sumLeaves(const Scan& scan, const FilterParams& params,
                           FilterCounts& counted, Add&& add) {
     // An edge of c sqrt(r) has the octave of its fourth power c^4 r^2, divided by four.
@@ -96,11 +95,9 @@ LeafTable<Sums> sumLeaves(const Scan& scan, const FilterParams& params,
     const auto minRange2 = static_cast<float>(params.minRange_m * params.minRange_m);
     const auto maxRange2 = static_cast<float>(params.maxRange_m * params.maxRange_m);
     LeafTable<Sums> table(scan.size());
-    // Neighbouring points mostly share a leaf: its sums stay in registers meanwhile.
+    // Neighbouring points mostly share a leaf.
     std::uint64_t current = ~std::uint64_t{0};
-    std::uint32_t leaf = 0;
-    std::array<double, 3> anchor{};
-    Sums sums;
+    Leaf<Sums>* leaf = nullptr;
     for (std::size_t i = 0; i < scan.size(); ++i) {
         const float x = scan.x[i], y = scan.y[i], z = scan.z[i];
         const float range2 = x * x + y * y + z * z;
@@ -112,17 +109,13 @@ LeafTable<Sums> sumLeaves(const Scan& scan, const FilterParams& params,
         const int octave = octaveOf(std::max(minLeaf4, leafAtOneMetre4 * range2)) >> 2;
         const std::uint64_t key = leafKey(octave, Four{x, y, z, 0.F});
         if (key != current) {
-            if (!inPlace && counted.used > 0) table[leaf].sums = sums;
             current = key;
-            leaf = table.find(key, x, y, z);
-            anchor = {table[leaf].anchor[0], table[leaf].anchor[1], table[leaf].anchor[2]};
-            if (!inPlace) sums = table[leaf].sums;
+            leaf = &table.find(key, x, y, z);
         }
-        add(inPlace ? table[leaf].sums : sums, i, x - anchor[0], y - anchor[1],
-            z - anchor[2]);
+        add(leaf->sums, i, double(x) - leaf->anchor[0], double(y) - leaf->anchor[1],
+            double(z) - leaf->anchor[2]);
         ++counted.used;
     }
-    if (!inPlace && counted.used > 0) table[leaf].sums = sums;
     return table;
 }
 

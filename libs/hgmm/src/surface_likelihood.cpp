@@ -20,13 +20,18 @@ double reachOf(double outlierRatio) {
 }
 
 /// Octaves by which cells are smaller than patches: most of the cells in a patch's box are
-/// not touched by it.
+/// not touched by it. Each octave more doubles the memory for less and less speed.
 constexpr int kFiner = 3;
+
+/// Narrower softening does not make cells smaller still: there would be several times as
+/// many, hardly faster to ask [m].
+constexpr double kLeastForCells_m = 0.05;
 
 /// Of a cell twice as large as the space around a thin patch: the many small patches share
 /// this size, for each size in use costs a query a look.
 int octaveOfReach(double softeningStd_m, double outlierRatio) {
-    const double reach_m = std::max(2 * softeningStd_m * reachOf(outlierRatio), 1e-3);
+    const double reach_m =
+        2 * std::max(softeningStd_m, kLeastForCells_m) * reachOf(outlierRatio);
     return std::clamp(static_cast<int>(std::ceil(std::log2(reach_m))), BoxIndex::kMinOctave,
                       BoxIndex::kMaxOctave);
 }

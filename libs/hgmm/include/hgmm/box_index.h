@@ -109,7 +109,7 @@ class BoxIndex {
         if (!(cell > -limit && cell < limit)) return 1 << 30;
         return floorToInt(cell);
     }
-    static float perCell(int octave) { return static_cast<float>(powerOfTwo(-octave)); }
+    static float perCell(int octave) { return floatPowerOfTwo(-octave); }
 
     Placement placementOf(const Box& box) const;
     template <typename Visitor>
@@ -159,7 +159,7 @@ template <typename Touches>
 void BoxIndex::update(std::uint32_t i, const Box& box, Touches&& touches) {
     replace(i, box, true);
     const Placement& p = placements_[i];
-    const auto edge = static_cast<float>(powerOfTwo(p.octave));
+    const float edge = floatPowerOfTwo(p.octave);
     forEachCell(p, [&](std::int32_t x, std::int32_t y, std::int32_t z) {
         const float centre[3] = {(float(x) + 0.5F) * edge, (float(y) + 0.5F) * edge,
                                  (float(z) + 0.5F) * edge};

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "hgmm/channel_mixture.h"
-#include "hgmm/component_index.h"
 #include "hgmm/modality_map.h"
 #include "hgmm/scan.h"
 

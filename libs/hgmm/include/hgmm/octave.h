@@ -26,6 +26,7 @@ inline double powerOfTwo(int octave) {
     std::memcpy(&v, &bits, sizeof(v));
     return v;
 }
+/// The same as a float, without a conversion.
 inline float floatPowerOfTwo(int octave) {
     const auto bits = static_cast<std::uint32_t>(octave + 127) << 23U;
     float v = 0;
