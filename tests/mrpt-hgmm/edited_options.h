@@ -38,11 +38,9 @@ inline Values values(const CHGMMOccupancyMap::TInsertionOptions& options) {
     return values;
 }
 inline Values values(const CHGMMOccupancyMap::TLikelihoodOptions& o) {
-    return {{"softening_m", o.softening_m},
-            {"outlierRatio", o.outlierRatio},
-            {"maxPoints", o.maxPoints},
-            {"minRange_m", o.minRange_m},
-            {"maxRange_m", o.maxRange_m}};
+    return {{"softening_m", o.softening_m}, {"outlierRatio", o.outlierRatio},
+            {"maxPoints", o.maxPoints},     {"independentPoints", o.independentPoints},
+            {"minRange_m", o.minRange_m},   {"maxRange_m", o.maxRange_m}};
 }
 inline Values values(const CHGMMOccupancyMap::TRenderOptions& o) {
     return {{"level", o.level},
@@ -76,6 +74,7 @@ inline void change(CHGMMOccupancyMap::TLikelihoodOptions& o) {
     o.softening_m = 0.2345;
     o.outlierRatio = 0.123;
     o.maxPoints = 77;
+    o.independentPoints = 66;
     o.minRange_m = 0.45;
     o.maxRange_m = 33.3;
 }

@@ -98,6 +98,12 @@ void expectLogDensity(const hgmm::Map& map, const std::vector<double>& answer) {
         EXPECT_NEAR(got, answer[3], 1e-4 * std::abs(answer[3]) + 1e-4);
 }
 
+/// Options that came after all of these files have their defaults.
+void forgetYoungOptions(CHGMMOccupancyMap& map) {
+    map.likelihoodOptions.independentPoints =
+        CHGMMOccupancyMap().likelihoodOptions.independentPoints;
+}
+
 TEST(GoldenFile, MapOfVersion0LoadsAndAnswersAsEver) {
     const CHGMMOccupancyMap map = load("map_v0.hgmm");
     const auto answers = readAnswers("map_v0.txt", map.model());
@@ -109,6 +115,7 @@ TEST(GoldenFile, MapOfVersion0LoadsAndAnswersAsEver) {
 
     CHGMMOccupancyMap wanted;
     edited::change(wanted.likelihoodOptions);
+    forgetYoungOptions(wanted);
     EXPECT_EQ(edited::values(map.likelihoodOptions),
               edited::values(wanted.likelihoodOptions));
     // Version 0 had four render options; the others keep their defaults.
@@ -161,6 +168,7 @@ TEST(GoldenFile, MapOfVersion1LoadsAndAnswersAsEver) {
     wanted.insertionOptions.params.modalities.clear();
     wanted.insertionOptions.params.modality = hgmm::ModalityParams();
     wanted.renderOptions.modality.clear();
+    forgetYoungOptions(wanted);
     EXPECT_EQ(edited::all(map), edited::all(wanted));
 }
 
@@ -182,6 +190,7 @@ TEST(GoldenFile, MapOfVersion2LoadsAndAnswersAsEver) {
 
     CHGMMOccupancyMap wanted;
     edited::change(wanted);
+    forgetYoungOptions(wanted);
     EXPECT_EQ(edited::all(map), edited::all(wanted));
 }
 

@@ -16,6 +16,8 @@ CHGMMOccupancyMap roomMap() {
     CHGMMOccupancyMap map;
     map.insertObservation(*observations::laser(), CPose3D(0, 0, 0.2, 0, 0, 0));
     map.insertObservation(*observations::laser(), CPose3D(0, 0, 0.2, M_PI, 0, 0));
+    map.likelihoodOptions.softening_m = 0.05;
+    map.likelihoodOptions.independentPoints = 1000000;
     return map;
 }
 
@@ -93,6 +95,22 @@ TEST(Likelihood, UsesAtMostMaxPointsInRange) {
     EXPECT_THROW(map.computeObservationLikelihood(*scan, far), std::exception);
 }
 
+TEST(Likelihood, PointsBeyondTheIndependentOnesDoNotMakeItSurer) {
+    CHGMMOccupancyMap map = roomMap();
+    const auto scan = observations::laser();
+    const CPose3D shifted(0.1, 0, 0.2, 0, 0, 0);
+    const double all = map.computeObservationLikelihood(*scan, shifted);
+    map.likelihoodOptions.independentPoints = 181;
+    EXPECT_DOUBLE_EQ(map.computeObservationLikelihood(*scan, shifted), all);
+    map.likelihoodOptions.independentPoints = 20;
+    EXPECT_NEAR(map.computeObservationLikelihood(*scan, shifted), all * 20 / 181, 1e-9);
+    // Points that are not compared do not count.
+    map.likelihoodOptions.maxPoints = 20;
+    const double few = map.computeObservationLikelihood(*scan, shifted);
+    map.likelihoodOptions.independentPoints = 181;
+    EXPECT_DOUBLE_EQ(map.computeObservationLikelihood(*scan, shifted), few);
+}
+
 TEST(Likelihood, FollowsTheMapAndTheOptions) {
     CHGMMOccupancyMap map = roomMap();
     const auto scan = observations::laser();
@@ -113,6 +131,7 @@ TEST(Likelihood, ModelChangedByHandIsSeen) {
     const auto scan = observations::laser();
     const double before = map.computeObservationLikelihood(*scan, kTrue);
     CHGMMOccupancyMap other;
+    other.likelihoodOptions = map.likelihoodOptions;
     other.insertObservation(*observations::cloud());
     map.model() = other.model();
     EXPECT_NE(map.computeObservationLikelihood(*scan, kTrue), before);
@@ -193,6 +212,7 @@ TEST(Likelihood, ThreadsGetTheSameAsOneThread) {
     for (auto& thread : pool) thread.join();
     CHGMMOccupancyMap fresh;
     fresh.model() = map.model();
+    fresh.likelihoodOptions = map.likelihoodOptions;
     for (int t = 0; t < threads; ++t) EXPECT_EQ(parallel[t], evaluate(fresh, t));
 }
 

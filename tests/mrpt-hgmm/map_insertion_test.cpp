@@ -2,6 +2,10 @@
 #include <mrpt/maps/CHGMMOccupancyMap.h>
 #include <mrpt/obs/CObservationOdometry.h>
 
+#include <thread>
+#include <vector>
+
+#include "hgmm/mrpt_bridge/observation_to_scan.h"
 #include "observations.h"
 
 using mrpt::maps::CHGMMOccupancyMap;
@@ -73,6 +77,58 @@ TEST(MapInsertion, OptionsReachTheModel) {
               fine.model().mixture().totalSupport());
     coarse.insertionOptions.params.filter.minRange_m = -1;
     EXPECT_THROW(coarse.insertObservation(*observations::laser()), std::invalid_argument);
+}
+
+// What is made of an observation is shared by all maps of the process: by particles.
+TEST(MapInsertion, SharedSamplesAreThoseOfTheScan) {
+    for (const auto& [name, o] : observations::all()) {
+        const CPose3D here(0.3, -0.2, 0.1, 0.4, 0, 0), there(5, 1, 0.1, -1, 0.1, 0);
+        CHGMMOccupancyMap first, second, direct;
+        first.insertObservation(*o, here);
+        second.insertObservation(*o, there);
+        direct.insertScan(*hgmm::mrpt_bridge::observationToScan(*o, there));
+        EXPECT_EQ(second.model(), direct.model()) << name;
+        EXPECT_NE(first.model(), second.model()) << name;
+        second.auxParticleFilterCleanUp();
+        CHGMMOccupancyMap third;
+        third.insertObservation(*o, there);
+        EXPECT_EQ(third.model(), second.model()) << name;
+    }
+}
+
+TEST(MapInsertion, ObservationThatChangedIsNotTakenForWhatItWas) {
+    const auto scan = observations::laser(1001);
+    CHGMMOccupancyMap before, after, fresh;
+    before.insertObservation(*scan);
+    scan->setScanRange(501, 1.F);  // one ray, in the middle
+    after.insertObservation(*scan);
+    EXPECT_NE(after.model(), before.model());
+    after.auxParticleFilterCleanUp();
+    fresh.insertObservation(*scan);
+    EXPECT_EQ(after.model(), fresh.model());
+    // The same observation with other options.
+    CHGMMOccupancyMap coarse;
+    coarse.insertionOptions.params.filter.leafAtOneMetre_m = 0.2;
+    coarse.insertObservation(*scan);
+    EXPECT_LT(coarse.model().mixture().size(), fresh.model().mixture().size());
+}
+
+TEST(MapInsertion, ThreadsShareSamples) {
+    const auto scan = observations::laser();
+    CHGMMOccupancyMap expected;
+    expected.insertObservation(*scan);
+    std::vector<CHGMMOccupancyMap> maps(8);
+    std::vector<std::thread> threads;
+    for (auto& map : maps)
+        threads.emplace_back([&map, &scan] {
+            for (int i = 0; i < 20; ++i) {
+                map.clear();
+                if (i % 5 == 0) map.auxParticleFilterCleanUp();
+                map.insertObservation(*scan);
+            }
+        });
+    for (auto& thread : threads) thread.join();
+    for (const auto& map : maps) EXPECT_EQ(map.model(), expected.model());
 }
 
 TEST(MapInsertion, ClearAndCloneAndDescribe) {

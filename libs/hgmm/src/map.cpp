@@ -5,9 +5,9 @@
 #include <limits>
 #include <string>
 
-#include "hgmm/gaps.h"
 #include "hgmm/update.h"
 #include "map_derived.h"
+#include "require_rigid.h"
 #include "run_both.h"
 #include "storable.h"
 
@@ -99,29 +99,38 @@ void Map::clear() {
     *this = Map(params_);
 }
 
+Eigen::Vector3d Map::originWith(const Pose& T_map_sensor) const {
+    return isBlank() ? latticePoint(T_map_sensor.t) : origin_;
+}
+
 InsertReport Map::insert(const Scan& scan) {
     scan.validate();
-    InsertReport report;
-    const Eigen::Vector3d origin = isBlank() ? latticePoint(scan.T_map_sensor.t) : origin_;
-    const Pose T_local_sensor{scan.T_map_sensor.R, scan.T_map_sensor.t - origin};
-    const auto insertPlaces = [&] { insertSpace(scan, T_local_sensor, report); };
-    const auto insertModalities = [&] {
-        model_.modalities.insert(scan, T_local_sensor, params_);
-    };
     if (params_.modalities.empty() || scan.channels.empty())
-        insertPlaces();
-    else
-        runBoth(insertPlaces, insertModalities);
+        return insert(samplesOf(scan, params_), scan.T_map_sensor);
+    InsertReport report;
+    const Eigen::Vector3d origin = originWith(scan.T_map_sensor);
+    const Pose T_local_sensor{scan.T_map_sensor.R, scan.T_map_sensor.t - origin};
+    runBoth([&] { insertSpace(samplesOf(scan, params_), T_local_sensor, report); },
+            [&] { model_.modalities.insert(scan, T_local_sensor, params_); });
     if (report.samples > 0) origin_ = origin;
     return report;
 }
 
-void Map::insertSpace(const Scan& scan, const Pose& T_local_sensor, InsertReport& report) {
-    Mixture<3> samples_sensor = filterScan(scan, params_.filter, &report.points);
-    bridgeGaps(samples_sensor, params_.cells);
-    report.samples = samples_sensor.size();
-    if (samples_sensor.empty()) return;
-    const Mixture<3> samples = transformed(samples_sensor, T_local_sensor);
+InsertReport Map::insert(const ScanSamples& scan, const Pose& T_map_sensor) {
+    requireRigid(T_map_sensor, "T_map_sensor");
+    InsertReport report;
+    const Eigen::Vector3d origin = originWith(T_map_sensor);
+    insertSpace(scan, {T_map_sensor.R, T_map_sensor.t - origin}, report);
+    if (report.samples > 0) origin_ = origin;
+    return report;
+}
+
+void Map::insertSpace(const ScanSamples& scan, const Pose& T_local_sensor,
+                      InsertReport& report) {
+    report.points = scan.points;
+    report.samples = scan.samples_sensor.size();
+    if (scan.samples_sensor.empty()) return;
+    const Mixture<3> samples = transformed(scan.samples_sensor, T_local_sensor);
     const std::vector<RayBundle> bundles =
         insertSurfaces(samples, T_local_sensor.t, report);
     if (!freePerComponent())

@@ -11,6 +11,7 @@
 #include "hgmm/mrpt_bridge/octomap_voxels.h"
 #include "map_archive.h"
 #include "option_fields.h"
+#include "shared_samples.h"
 
 namespace bridge = ::hgmm::mrpt_bridge;
 
@@ -28,10 +29,14 @@ MRPT_INITIALIZER(registerHgmmMap) {
     return model_;
 }
 
-::hgmm::InsertReport CHGMMOccupancyMap::insertScan(const ::hgmm::Scan& scan) {
+void CHGMMOccupancyMap::applyInsertionOptions() {
     // setParams drops derived data, so it is for parameters that did change.
     if (!bridge::sameParams(model_.params(), insertionOptions.params))
         model_.setParams(insertionOptions.params);
+}
+
+::hgmm::InsertReport CHGMMOccupancyMap::insertScan(const ::hgmm::Scan& scan) {
+    applyInsertionOptions();
     return model().insert(scan);
 }
 
@@ -80,7 +85,8 @@ void CHGMMOccupancyMap::getAsOctoMapVoxels(mrpt::opengl::COctoMapVoxels& gl_obj)
 }
 
 void CHGMMOccupancyMap::auxParticleFilterCleanUp() {
-    likelihood_.forgetObservations();
+    bridge::ObservationLikelihood::forgetObservations();
+    bridge::forgetSharedSamples();
 }
 
 uint8_t CHGMMOccupancyMap::serializeGetVersion() const {
@@ -102,9 +108,15 @@ void CHGMMOccupancyMap::internal_clear() {
 bool CHGMMOccupancyMap::internal_insertObservation(
     const mrpt::obs::CObservation& observation,
     const std::optional<const mrpt::poses::CPose3D>& robotPose) {
-    const auto scan = bridge::observationToScan(
-        observation, robotPose, bridge::channelsFor(insertionOptions.params));
-    return scan && insertScan(*scan).samples > 0;
+    if (!insertionOptions.params.modalities.empty()) {
+        const auto scan = bridge::observationToScan(observation, robotPose);
+        return scan && insertScan(*scan).samples > 0;
+    }
+    applyInsertionOptions();
+    const auto samples = bridge::sharedSamplesOf(observation, model_.params());
+    if (!samples) return false;
+    const ::hgmm::Pose T_map_sensor = bridge::sensorPoseInMap(observation, robotPose);
+    return model().insert(*samples, T_map_sensor).samples > 0;
 }
 
 double CHGMMOccupancyMap::internal_computeObservationLikelihood(

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
-#include "observation_digest.h"
+#include "recent_observations.h"
 
 namespace hgmm::mrpt_bridge {
 
@@ -42,6 +42,34 @@ class LogOfProduct {
     double product_ = 1, log_ = 0;
 };
 
+using Points = std::vector<Eigen::Vector3d>;  // in the robot's frame
+
+Points pointsToCompare(const mrpt::obs::CObservation& observation,
+                       const LikelihoodParams& params) {
+    params.validate();
+    Points points;
+    const auto scan = observationToScan(observation, std::nullopt, Channels::none);
+    if (!scan) return points;
+    std::vector<std::size_t> inRange;
+    for (std::size_t i = 0; i < scan->size(); ++i) {
+        const double range = std::hypot(scan->x[i], scan->y[i], scan->z[i]);
+        if (range >= params.minRange_m && range <= params.maxRange_m) inRange.push_back(i);
+    }
+    const Pose& T_robot_sensor = scan->T_map_sensor;
+    for (const std::size_t k : spreadIndices(inRange.size(), params.maxPoints)) {
+        const std::size_t i = inRange[k];
+        points.push_back(T_robot_sensor.R *
+                             Eigen::Vector3d(scan->x[i], scan->y[i], scan->z[i]) +
+                         T_robot_sensor.t);
+    }
+    return points;
+}
+
+auto& recentPoints() {
+    static RecentObservations<LikelihoodParams, Points> recent(Digested::sample);
+    return recent;
+}
+
 }  // namespace
 
 ObservationLikelihood& ObservationLikelihood::operator=(const ObservationLikelihood& o) {
@@ -49,8 +77,6 @@ ObservationLikelihood& ObservationLikelihood::operator=(const ObservationLikelih
     const std::scoped_lock lock(mutex_, o.mutex_);
     surfaces_ = o.surfaces_;
     stale_ = o.stale_;
-    entries_.clear();
-    next_ = 0;
     return *this;
 }
 
@@ -58,7 +84,9 @@ double ObservationLikelihood::operator()(const Map& map, const LikelihoodParams&
                                          const mrpt::obs::CObservation& observation,
                                          const mrpt::poses::CPose3D& T_map_robot) const {
     if (map.empty()) return 0;
-    const auto points = pointsOf(observation, params);
+    const auto points = recentPoints().get(observation, params, [&] {
+        return std::make_shared<const Points>(pointsToCompare(observation, params));
+    });
     if (points->empty()) return 0;
     const auto surfaces = surfacesOf(map, params);
 
@@ -69,7 +97,8 @@ double ObservationLikelihood::operator()(const Map& map, const LikelihoodParams&
         const Eigen::Vector3f local = (T.R * p + t_local).cast<float>();
         product.multiply(surfaces->likelihood.probability(local.x(), local.y(), local.z()));
     }
-    return product.log();
+    return product.log() *
+           std::min(1.0, double(params.independentPoints) / double(points->size()));
 }
 
 void ObservationLikelihood::invalidate() {
@@ -78,9 +107,7 @@ void ObservationLikelihood::invalidate() {
 }
 
 void ObservationLikelihood::forgetObservations() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    entries_.clear();
-    next_ = 0;
+    recentPoints().forget();
 }
 
 std::shared_ptr<const ObservationLikelihood::Surfaces> ObservationLikelihood::surfacesOf(
@@ -97,41 +124,6 @@ std::shared_ptr<const ObservationLikelihood::Surfaces> ObservationLikelihood::su
     }
     stale_ = false;
     return surfaces_;
-}
-
-std::shared_ptr<const ObservationLikelihood::Points> ObservationLikelihood::pointsOf(
-    const mrpt::obs::CObservation& observation, const LikelihoodParams& params) const {
-    const Key key{&observation, digestOf(observation), params};
-    const std::lock_guard<std::mutex> lock(mutex_);
-    for (const Entry& entry : entries_)
-        if (entry.key.address == key.address && entry.key.digest == key.digest &&
-            entry.key.params == key.params)
-            return entry.points;
-
-    params.validate();
-    auto points = std::make_shared<Points>();
-    if (const auto scan = observationToScan(observation, std::nullopt, Channels::none)) {
-        std::vector<std::size_t> inRange;
-        for (std::size_t i = 0; i < scan->size(); ++i) {
-            const double range = std::hypot(scan->x[i], scan->y[i], scan->z[i]);
-            if (range >= params.minRange_m && range <= params.maxRange_m)
-                inRange.push_back(i);
-        }
-        const Pose& T_robot_sensor = scan->T_map_sensor;
-        for (const std::size_t k : spreadIndices(inRange.size(), params.maxPoints)) {
-            const std::size_t i = inRange[k];
-            points->push_back(T_robot_sensor.R *
-                                  Eigen::Vector3d(scan->x[i], scan->y[i], scan->z[i]) +
-                              T_robot_sensor.t);
-        }
-    }
-    const Entry entry{key, std::move(points)};
-    if (entries_.size() < kMaxEntries)
-        entries_.push_back(entry);
-    else
-        entries_[next_] = entry;
-    next_ = (next_ + 1) % kMaxEntries;
-    return entry.points;
 }
 
 }  // namespace hgmm::mrpt_bridge

@@ -1,6 +1,8 @@
 #include "observation_digest.h"
 
+#include <array>
 #include <cstring>
+#include <string>
 #include <type_traits>
 
 #include "scan_readers.h"
@@ -13,27 +15,48 @@ namespace {
 
 class Digest {
  public:
+    explicit Digest(Digested digested) : digested_(digested) {}
+
     template <typename T>
     void add(const T& value) {
         static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
         std::uint64_t word = 0;
         std::memcpy(&word, &value, sizeof(T));
-        hash_ = (hash_ ^ word) * 0x9E3779B97F4A7C15ULL;
-        hash_ ^= hash_ >> 32U;
+        hash_ = mixed(hash_, word);
     }
-    /// Adds at most `most` of value(0) .. value(n - 1), and n.
+    /// Adds n and value(0) .. value(n - 1); at most `most` of them, spread, if a sample
+    /// will do.
     template <typename Value>
-    void addSpread(std::size_t n, Value&& value, std::size_t most = 1024) {
+    void addAll(std::size_t n, Value&& value, std::size_t most = 1024) {
         add(n);
-        const std::size_t step = n / most + 1;
-        for (std::size_t i = 0; i < n; i += step) add(value(i));
+        const std::size_t step = digested_ == Digested::whole ? 1 : n / most + 1;
+        // Several chains, for each waits for its own last step only.
+        std::array<std::uint64_t, 4> lanes{1, 2, 3, 4};
+        std::size_t lane = 0;
+        for (std::size_t i = 0; i < n; i += step) {
+            const float v = static_cast<float>(value(i));
+            std::uint32_t word = 0;
+            std::memcpy(&word, &v, sizeof(v));
+            lanes[lane] = mixed(lanes[lane], word);
+            lane = (lane + 1) % lanes.size();
+        }
+        for (const std::uint64_t l : lanes) add(l);
     }
     void add(const mrpt::poses::CPose3D& pose) {
         for (int i = 0; i < 6; ++i) add(pose[i]);
     }
+    void add(const std::string& text) {
+        addAll(text.size(), [&](std::size_t i) { return text[i]; });
+    }
     std::uint64_t value() const { return hash_; }
 
  private:
+    static std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {
+        hash = (hash ^ word) * 0x9E3779B97F4A7C15ULL;
+        return hash ^ hash >> 32U;
+    }
+
+    Digested digested_;
     std::uint64_t hash_ = 0xCBF29CE484222325ULL;
 };
 
@@ -41,7 +64,13 @@ template <typename Matrix>
 void addMatrix(Digest& digest, const Matrix& m) {
     const std::size_t cols = m.cols();
     digest.add(cols);
-    digest.addSpread(m.rows() * cols, [&](std::size_t i) { return m(i / cols, i % cols); });
+    digest.addAll(m.rows() * cols, [&](std::size_t i) { return m(i / cols, i % cols); });
+}
+
+template <typename Buffer>
+void addPoints(Digest& digest, const Buffer& x, const Buffer& y, const Buffer& z) {
+    for (const Buffer* buffer : {&x, &y, &z})
+        digest.addAll(buffer->size(), [&](std::size_t i) { return (*buffer)[i]; });
 }
 
 void addData(Digest& digest, const CObservation2DRangeScan& o) {
@@ -49,7 +78,7 @@ void addData(Digest& digest, const CObservation2DRangeScan& o) {
     digest.add(o.rightToLeft);
     digest.add(o.deltaPitch);
     // Asked for by every particle: a digest of all rays would cost as much as the rest.
-    digest.addSpread(
+    digest.addAll(
         o.getScanSize(),
         [&](std::size_t i) { return o.getScanRangeValidity(i) ? o.getScanRange(i) : -1.F; },
         128);
@@ -62,27 +91,24 @@ void addData(Digest& digest, const CObservation3DRangeScan& o) {
     digest.add(o.range_is_depth);
     digest.add(o.hasPoints3D);
     digest.add(o.hasRangeImage);
-    digest.addSpread(o.points3D_x.size(), [&](std::size_t i) {
-        return o.points3D_x[i] + 3 * o.points3D_y[i] + 7 * o.points3D_z[i];
-    });
+    if (o.points3D_isExternallyStored()) digest.add(o.points3D_getExternalStorageFile());
+    if (o.rangeImage_isExternallyStored())
+        digest.add(o.rangeImage_getExternalStorageFile(""));
+    addPoints(digest, o.points3D_x, o.points3D_y, o.points3D_z);
     addMatrix(digest, o.rangeImage);
 }
 
 void addData(Digest& digest, const CObservationPointCloud& o) {
+    if (o.isExternallyStored()) digest.add(o.getExternalStorageFile());
     if (!o.pointcloud) return;
-    const auto& x = o.pointcloud->getPointsBufferRef_x();
-    const auto& y = o.pointcloud->getPointsBufferRef_y();
-    const auto& z = o.pointcloud->getPointsBufferRef_z();
-    digest.addSpread(x.size(), [&](std::size_t i) { return x[i] + 3 * y[i] + 7 * z[i]; });
+    addPoints(digest, o.pointcloud->getPointsBufferRef_x(),
+              o.pointcloud->getPointsBufferRef_y(), o.pointcloud->getPointsBufferRef_z());
 }
 
 void addData(Digest& digest, const CObservationVelodyneScan& o) {
-    const auto& cloud = o.point_cloud;
-    digest.addSpread(cloud.size(), [&](std::size_t i) {
-        return cloud.x[i] + 3 * cloud.y[i] + 7 * cloud.z[i];
-    });
+    addPoints(digest, o.point_cloud.x, o.point_cloud.y, o.point_cloud.z);
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(o.scan_packets.data());
-    digest.addSpread(
+    digest.addAll(
         o.scan_packets.size() * sizeof(CObservationVelodyneScan::TVelodyneRawPacket),
         [&](std::size_t i) { return bytes[i]; });
 }
@@ -94,8 +120,8 @@ void addData(Digest& digest, const CObservationRotatingScan& o) {
 
 }  // namespace
 
-std::uint64_t digestOf(const CObservation& observation) {
-    Digest digest;
+std::uint64_t digestOf(const CObservation& observation, Digested digested) {
+    Digest digest(digested);
     digest.add(observation.timestamp.time_since_epoch().count());
     mrpt::poses::CPose3D sensorPose;
     observation.getSensorPose(sensorPose);

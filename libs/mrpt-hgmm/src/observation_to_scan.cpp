@@ -27,6 +27,14 @@ mrpt::poses::CPose3D toCPose3D(const Pose& pose) {
         R, mrpt::math::CMatrixDouble31({pose.t.x(), pose.t.y(), pose.t.z()}));
 }
 
+Pose sensorPoseInMap(const CObservation& observation,
+                     const std::optional<mrpt::poses::CPose3D>& robotPose) {
+    mrpt::poses::CPose3D sensorPose;
+    observation.getSensorPose(sensorPose);
+    const Pose T_robot_sensor = toPose(sensorPose);
+    return robotPose ? toPose(*robotPose) * T_robot_sensor : T_robot_sensor;
+}
+
 std::optional<Scan> observationToScan(const CObservation& observation,
                                       const std::optional<mrpt::poses::CPose3D>& robotPose,
                                       Channels channels) {
@@ -34,11 +42,7 @@ std::optional<Scan> observationToScan(const CObservation& observation,
     if (!visitSupported(observation,
                         [&](const auto& o) { return readScan(o, channels, scan); }))
         return std::nullopt;
-
-    mrpt::poses::CPose3D sensorPose;
-    observation.getSensorPose(sensorPose);
-    const Pose T_robot_sensor = toPose(sensorPose);
-    scan.T_map_sensor = robotPose ? toPose(*robotPose) * T_robot_sensor : T_robot_sensor;
+    scan.T_map_sensor = sensorPoseInMap(observation, robotPose);
     return scan;
 }
 

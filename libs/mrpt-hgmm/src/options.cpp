@@ -32,6 +32,7 @@ OptionFields fieldsOf(Likelihood& options) {
     return {{"softening_m", &options.softening_m},
             {"outlierRatio", &options.outlierRatio},
             {"maxPoints", &options.maxPoints},
+            {"independentPoints", &options.independentPoints},
             {"minRange_m", &options.minRange_m},
             {"maxRange_m", &options.maxRange_m}};
 }
@@ -58,14 +59,15 @@ void LikelihoodParams::validate() const {
     requireInRange("softening_m", softening_m, 0.0, 10.0);
     requireInRange("outlierRatio", outlierRatio, 1e-9, 1.0 - 1e-9);
     requireInRange("maxPoints", maxPoints, 1, 1e6);
+    requireInRange("independentPoints", independentPoints, 1, 1e6);
     requireInRange("minRange_m", minRange_m, 0.0, 1e6);
     requireInRange("maxRange_m", maxRange_m, minRange_m, 1e6);
 }
 
 bool LikelihoodParams::operator==(const LikelihoodParams& o) const {
     return softening_m == o.softening_m && outlierRatio == o.outlierRatio &&
-           maxPoints == o.maxPoints && minRange_m == o.minRange_m &&
-           maxRange_m == o.maxRange_m;
+           maxPoints == o.maxPoints && independentPoints == o.independentPoints &&
+           minRange_m == o.minRange_m && maxRange_m == o.maxRange_m;
 }
 
 void RenderParams::validate() const {

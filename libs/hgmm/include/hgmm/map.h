@@ -16,6 +16,7 @@
 #include "hgmm/modalities.h"
 #include "hgmm/occupancy.h"
 #include "hgmm/scan.h"
+#include "hgmm/scan_samples.h"
 #include "hgmm/views.h"
 
 namespace hgmm {
@@ -69,6 +70,10 @@ class Map {
     /// malformed scan (Scan::validate), leaving the map as it was; a scan without usable
     /// points changes nothing.
     InsertReport insert(const Scan& scan);
+    /// The same for a scan whose samples are at hand, samplesOf(scan, params()): many maps
+    /// can share them. Modalities learn nothing. Throws std::invalid_argument for a pose
+    /// that is not finite or not rigid.
+    InsertReport insert(const ScanSamples& scan, const Pose& T_map_sensor);
 
     /// Adds what another map knows; this map's parameters stay.
     ///
@@ -186,7 +191,10 @@ class Map {
     /// Whether the local frame may still be anywhere.
     bool isBlank() const;
     bool freePerComponent() const;
-    void insertSpace(const Scan& scan, const Pose& T_local_sensor, InsertReport& report);
+    /// Where the local frame begins, or would with a scan from there.
+    Eigen::Vector3d originWith(const Pose& T_map_sensor) const;
+    void insertSpace(const ScanSamples& scan, const Pose& T_local_sensor,
+                     InsertReport& report);
     /// Returns what the scan gave to each component that it changed or added.
     std::vector<RayBundle> insertSurfaces(const Mixture<3>& samples,
                                           const Eigen::Vector3d& sensorOrigin,

@@ -15,10 +15,13 @@ namespace hgmm::mrpt_bridge {
 
 /// Which points of a scan are compared with the map, and how.
 struct LikelihoodParams {
-    double softening_m = 0.05;  ///< standard deviation added to all surfaces [m], 0 to 10
+    double softening_m = 0.02;  ///< standard deviation added to all surfaces [m], 0 to 10
     double outlierRatio =
-        0.05;                  ///< share of points that the map need not explain, in (0, 1)
-    int maxPoints = 200;       ///< points compared, spread over the scan [count], >= 1
+        0.05;              ///< share of points that the map need not explain, in (0, 1)
+    int maxPoints = 1000;  ///< points compared, spread over the scan [count], >= 1
+    /// More points count together as so many [count], >= 1: the errors of neighbours are
+    /// alike, and a particle filter must not be surer than the scan makes it.
+    int independentPoints = 100;
     double minRange_m = 0.1;   ///< nearer points are left out [m], >= 0
     double maxRange_m = 80.0;  ///< farther points are left out [m], > minRange_m
 
@@ -28,13 +31,13 @@ struct LikelihoodParams {
 };
 
 /// Likelihood of observations given a pose, for particle filters: sums SurfaceLikelihood
-/// over a spread subset of the scan's points, which are independent given the pose.
+/// over a spread subset of the scan's points. The more points, the nearer is its maximum to
+/// the pose; its height is that of independentPoints.
 ///
 /// Keeps what calls have in common: the map's surfaces, brought up to date where the map
-/// changed since invalidate(), and the points of the last few observations. An observation
-/// is recognised by address, time stamp, sensor pose and a digest of its data, so that one
-/// that takes the place of another is not mistaken for it. Memory is bounded; const calls
-/// may come from several threads. Copies share the surfaces.
+/// changed since invalidate(), and, for all maps of the process, the points of the last few
+/// observations (RecentObservations). Const calls may come from several threads. Copies
+/// share the surfaces.
 class ObservationLikelihood {
  public:
     ObservationLikelihood() = default;
@@ -49,36 +52,20 @@ class ObservationLikelihood {
 
     /// To be called when the map has changed.
     void invalidate();
-    /// Frees the points of observations.
-    void forgetObservations();
+    /// Frees the points of observations, those that other maps asked for included.
+    static void forgetObservations();
 
  private:
-    using Points = std::vector<Eigen::Vector3d>;  // in the robot's frame
     struct Surfaces {
         SurfaceLikelihood likelihood;
         double softening_m, outlierRatio;
     };
-    struct Key {
-        const void* address = nullptr;
-        std::uint64_t digest = 0;
-        LikelihoodParams params;
-    };
-    struct Entry {
-        Key key;
-        std::shared_ptr<const Points> points;
-    };
-    static constexpr std::size_t kMaxEntries = 4;
-
     std::shared_ptr<const Surfaces> surfacesOf(const Map& map,
                                                const LikelihoodParams& params) const;
-    std::shared_ptr<const Points> pointsOf(const mrpt::obs::CObservation& observation,
-                                           const LikelihoodParams& params) const;
 
     mutable std::mutex mutex_;
     mutable std::shared_ptr<Surfaces> surfaces_;  // changed while nobody else holds them
     mutable bool stale_ = false;                  // the map has changed since
-    mutable std::vector<Entry> entries_;          // the oldest is at next_
-    mutable std::size_t next_ = 0;
 };
 
 }  // namespace hgmm::mrpt_bridge

@@ -14,6 +14,11 @@ namespace hgmm::mrpt_bridge {
 Pose toPose(const mrpt::poses::CPose3D& pose);
 mrpt::poses::CPose3D toCPose3D(const Pose& pose);
 
+/// T_map_sensor: robotPose (+) sensorPose, the only place where the two are composed.
+/// @param robotPose pose of the robot in the map frame; the origin if not given
+Pose sensorPoseInMap(const mrpt::obs::CObservation& observation,
+                     const std::optional<mrpt::poses::CPose3D>& robotPose);
+
 /// Whether a scan's channels are read: who has no use for them saves more than half of the
 /// time that a coloured depth image takes.
 enum class Channels { all, none };
@@ -24,8 +29,7 @@ inline Channels channelsFor(const MapParams& params) {
 }
 
 /// Converts an observation to a scan in the sensor's own frame: rays start at 0, +X
-/// forward, and T_map_sensor is robotPose (+) sensorPose, the only place where the two are
-/// composed.
+/// forward, and T_map_sensor is sensorPoseInMap.
 ///
 /// | observation | points | channels in [0, 1] |
 /// | --- | --- | --- |

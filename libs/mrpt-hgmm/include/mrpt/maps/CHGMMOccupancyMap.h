@@ -142,7 +142,7 @@ class CHGMMOccupancyMap : public CMetricMap {
     /// Appends what renderOptions ask for, ellipsoids if nothing else, unless
     /// enableSaveAs3DObject is false.
     void getVisualizationInto(mrpt::opengl::CSetOfObjects& objects) const override;
-    /// Frees the points kept of the last observations.
+    /// Frees what is kept of the last observations, for all maps of the process.
     void auxParticleFilterCleanUp() override;
 
     /// Pairs the points of another map with this map's surfaces, as
@@ -186,6 +186,7 @@ class CHGMMOccupancyMap : public CMetricMap {
         const mrpt::poses::CPose3D& takenFrom) const override;
     bool internal_canComputeObservationLikelihood(
         const mrpt::obs::CObservation& observation) const override;
+    void applyInsertionOptions();
     void OnPostSuccesfulInsertObs(const mrpt::obs::CObservation& observation) override;
 
     ::hgmm::Map model_;

@@ -1,0 +1,21 @@
+#pragma once
+#include "hgmm/filter.h"
+#include "hgmm/map_params.h"
+#include "hgmm/mixture.h"
+#include "hgmm/scan.h"
+
+namespace hgmm {
+
+/// A scan's own mixture, in the sensor's frame: what Map::insert makes of a scan before it
+/// looks at the map. It is the same wherever the scan was taken from, so that particles,
+/// which put one scan into many maps, share it.
+struct ScanSamples {
+    Mixture<3>
+        samples_sensor;  ///< after the filter (filterScan), gaps bridged (bridgeGaps)
+    FilterCounts points;
+};
+
+/// Uses params.filter and params.cells.
+ScanSamples samplesOf(const Scan& scan, const MapParams& params);
+
+}  // namespace hgmm
