@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <deque>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "format.h"
@@ -29,6 +31,7 @@ using hgmm::Pose;
 constexpr double kOff_m = 0.3, kOff_deg = 5.0;     // of the search, and of climbs' starts
 constexpr double kNear_m = 0.05, kNear_deg = 0.5;  // of what counts as found
 constexpr int kClimbsPerScan = 5;
+constexpr std::size_t kNeighbours = 3;  // before and after a test scan
 
 /// What one test scan's likelihood led to, and how far that is from two poses: the
 /// recording's, which may be wrong, and the one to which registration of all points of the
@@ -130,7 +133,7 @@ std::string row(const char* what, const std::vector<PoseError>& errors) {
                   median(metres), median(degrees));
 }
 
-std::string summary(const Run& run, const std::vector<ScanLandscape>& scans) {
+std::string summary(const std::string& title, const std::vector<ScanLandscape>& scans) {
     std::vector<PoseError> highest, highestRegistered, climbed, climbedRegistered, moved;
     for (const ScanLandscape& scan : scans) {
         highest.push_back(scan.highest.toRecorded);
@@ -141,8 +144,7 @@ std::string summary(const Run& run, const std::vector<ScanLandscape>& scans) {
             climbedRegistered.push_back(end.toRegistered);
         }
     }
-    std::string text = format("study landscape: %s, %zu scans mapped, %zu tested\n",
-                              run.dataset.c_str(), run.scansMapped, scans.size());
+    std::string text = format("%s, %zu tested\n", title.c_str(), scans.size());
     text += format("maxima are sought, and climbs start, up to %g m and %g deg away\n",
                    kOff_m, kOff_deg);
     text +=
@@ -168,6 +170,36 @@ std::string csv(const std::vector<ScanLandscape>& scans) {
     return text;
 }
 
+/// Prints what was found, and writes it where a report is wanted.
+void report(const std::string& title, const std::vector<ScanLandscape>& scans,
+            const Options& options) {
+    if (scans.empty()) throw std::runtime_error(options.log + ": no scan was left to test");
+    std::fputs(summary(title, scans).c_str(), stdout);
+    if (options.reportFolder)
+        writeTextFile(*options.reportFolder + "/landscape.csv", csv(scans));
+}
+
+void exploreScan(const Explorer& explorer, const RecordedScan& recorded,
+                 std::vector<ScanLandscape>& scans) {
+    const auto scan = hgmm::mrpt_bridge::observationToScan(*recorded.observation);
+    if (scan && scan->size() > 0) scans.push_back(explorer.explore(recorded, *scan));
+}
+
+/// Looks at scan `index` in a map of the others.
+void exploreAmong(const std::deque<RecordedScan>& window, std::size_t index,
+                  const Options& options, std::vector<ScanLandscape>& scans) {
+    const auto map = makeMap(options.config);
+    const RecordedScan* tested = nullptr;
+    for (const RecordedScan& recorded : window) {
+        if (recorded.index == index)
+            tested = &recorded;
+        else if (recorded.index + kNeighbours >= index)
+            map->insertObservation(*recorded.observation, recorded.T_map_robot);
+    }
+    if (tested != nullptr && !map->model().empty())
+        exploreScan(Explorer(*map, options.split.seed), *tested, scans);
+}
+
 }  // namespace
 
 void landscapeStudy(Recording& recording, const RecordingOptions& recordingOptions,
@@ -182,14 +214,36 @@ void landscapeStudy(Recording& recording, const RecordingOptions& recordingOptio
     while (const auto recorded = again.next()) {
         if (interrupted()) break;
         if (!options.split.isTestScan(recorded->index)) continue;
-        const auto scan = hgmm::mrpt_bridge::observationToScan(*recorded->observation);
-        if (scan && scan->size() > 0) scans.push_back(explorer.explore(*recorded, *scan));
+        exploreScan(explorer, *recorded, scans);
         progress.advance();
     }
-    if (scans.empty()) throw std::runtime_error(options.log + ": no scan was left to test");
-    std::fputs(summary(replayed.run, scans).c_str(), stdout);
-    if (options.reportFolder)
-        writeTextFile(*options.reportFolder + "/landscape.csv", csv(scans));
+    report(format("study landscape: %s, %zu scans mapped", replayed.run.dataset.c_str(),
+                  replayed.run.scansMapped),
+           scans, options);
+}
+
+void localLandscapeStudy(Recording& recording, const Options& options) {
+    std::deque<RecordedScan> window;
+    std::deque<std::size_t> waiting;  // test scans whose last neighbours are to come
+    std::vector<ScanLandscape> scans;
+    Progress progress(recording.size(), options.quiet);
+    while (auto recorded = recording.next()) {
+        if (interrupted()) break;
+        const std::size_t index = recorded->index;
+        window.push_back(std::move(*recorded));
+        if (window.front().index + 2 * kNeighbours < index) window.pop_front();
+        if (options.split.isTestScan(index)) waiting.push_back(index);
+        if (!waiting.empty() && waiting.front() + kNeighbours <= index) {
+            exploreAmong(window, waiting.front(), options, scans);
+            waiting.pop_front();
+        }
+        progress.advance();
+    }
+    for (const std::size_t index : waiting) exploreAmong(window, index, options, scans);
+    report(format("study landscape-local: %s, each scan in a map of %zu scans before and "
+                  "%zu after it",
+                  options.log.c_str(), kNeighbours, kNeighbours),
+           scans, options);
 }
 
 }  // namespace replay

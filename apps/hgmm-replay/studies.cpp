@@ -104,6 +104,12 @@ std::vector<Study> makeStudies() {
          Needs::testScans,
          landscapeStudy,
          {}},
+        {"landscape-local",
+         "the same in maps of the three scans before and after each test scan only, for "
+         "recordings whose poses drift",
+         Needs::testScans,
+         once(localLandscapeStudy),
+         {}},
         {"registration",
          "pairs of scans aligned from guesses that are 0.5 m and 10 deg off",
          Needs::posedScans,
@@ -141,7 +147,7 @@ const Study* findStudy(const std::string& name) {
 std::string studyList() {
     std::string text;
     for (const Study& study : studies())
-        text += format("%-12s ", study.name.c_str()) + study.text + wordsFor(study.needs) +
+        text += format("%-15s ", study.name.c_str()) + study.text + wordsFor(study.needs) +
                 "\n";
     return text;
 }

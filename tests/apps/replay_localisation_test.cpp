@@ -22,7 +22,7 @@ class ReplayLocalisation : public ReplayFolder {
 
 TEST_F(ReplayLocalisation, LandscapeHasItsMaximumAtTheTruth) {
     const Outcome outcome =
-        replay(recordRoom(12, 2000) + " --study landscape --split 6 --report '" +
+        replay(recordRoom(12, 800) + " --study landscape --split 6 --report '" +
                path("report") + "'");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const auto highest = row(outcome.out, "maximum, from the recording's pose");
@@ -38,9 +38,22 @@ TEST_F(ReplayLocalisation, LandscapeHasItsMaximumAtTheTruth) {
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3) << csv;
 }
 
+// A drift that grows along the recording moves the maximum in a map of all scans, not in
+// one of neighbours.
+TEST_F(ReplayLocalisation, LocalLandscapeBearsDrift) {
+    const std::string log = recordRoom(24, 400, 0.015);
+    const std::string label = "maximum, from the recording's pose";
+    const Outcome local = replay(log + " --study landscape-local --split 12");
+    ASSERT_EQ(local.exitCode, 0) << local.err;
+    EXPECT_EQ(row(local.out, label)[0], 2);
+    EXPECT_EQ(row(local.out, label)[1], 1) << local.out;
+    const Outcome global = replay(log + " --study landscape --split 12");
+    EXPECT_GT(row(global.out, label)[2], 2 * row(local.out, label)[2]) << global.out;
+}
+
 TEST_F(ReplayLocalisation, LandscapeDoesNotDependOnThreads) {
     const std::string study =
-        recordRoom(8, 1000) + " --study landscape --split 8 --threads ";
+        recordRoom(8, 400) + " --study landscape --split 8 --threads ";
     const Outcome one = replay(study + "1");
     ASSERT_EQ(one.exitCode, 0) << one.err;
     EXPECT_EQ(replay(study + "3").out, one.out);
@@ -51,6 +64,9 @@ TEST_F(ReplayLocalisation, LandscapeNeedsTestScans) {
     const Outcome none = replay(recordRoom(2, 200) + " --study landscape --split 9");
     EXPECT_EQ(none.exitCode, 1);
     expectHas(none.err, "no scan was left to test");
+    EXPECT_EQ(replay(recordRoom(2, 200) + " --study landscape-local").exitCode, 2);
+    EXPECT_EQ(replay(recordRoom(1, 200) + " --study landscape-local --split 2").exitCode,
+              1);
 }
 
 TEST_F(ReplayLocalisation, RegistrationFindsPairs) {

@@ -45,10 +45,11 @@ class ReplayFolder : public ScratchFolder {
     }
 
     /// "LOG --poses POSES" of a recording of the room.
-    std::string recordRoom(std::size_t scans = 12, std::size_t pointsPerScan = 3000) const {
+    std::string recordRoom(std::size_t scans = 12, std::size_t pointsPerScan = 3000,
+                           double drift_m = 0) const {
         box_room::writeRawlog(path("room.rawlog"),
                               box_room::observations(scans, pointsPerScan));
-        box_room::writePoses(path("room.tum"), scans);
+        box_room::writePoses(path("room.tum"), scans, drift_m);
         return "'" + path("room.rawlog") + "' --poses '" + path("room.tum") + "'";
     }
 

@@ -132,11 +132,15 @@ inline void writeUncompressedRawlog(const std::string& file, const Entries& entr
     for (const auto& entry : entries) archive << *entry;
 }
 
-/// True robot poses of the first scans.
-inline void writePoses(const std::string& file, std::size_t scans) {
+/// True robot poses of the first scans, or poses that drift along x.
+/// @param drift_m of each scan against the one before [m]
+inline void writePoses(const std::string& file, std::size_t scans, double drift_m = 0) {
     hgmm::evaluation::Trajectory trajectory;
-    for (std::size_t i = 0; i < scans; ++i)
-        trajectory.push_back({timeOfScan(i), hgmm::mrpt_bridge::toPose(robotPose(i))});
+    for (std::size_t i = 0; i < scans; ++i) {
+        hgmm::Pose pose = hgmm::mrpt_bridge::toPose(robotPose(i));
+        pose.t.x() += drift_m * double(i);
+        trajectory.push_back({timeOfScan(i), pose});
+    }
     hgmm::evaluation::writeTumTrajectory(file, trajectory);
 }
 
