@@ -9,45 +9,27 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source scripts/runs.sh
-seeds=${1:-1-10}
+seedRange "${1:-1-10}"
 maps=("${@:2}")
 [[ ${#maps[@]} -gt 0 ]] || maps=(hgmm grid)
-[[ $seeds == *-* ]] || seeds=1-$seeds
 out=$PWD/build/rbpf
-config=$PWD/share/mrpt-hgmm/config_files/rbpf-slam.ini
-stock=/usr/share/mrpt/config_files/rbpf-slam/gridmapping_optimal_sampling.ini
 rm -rf "$out"
 mkdir -p "$out"
-
-# Everything but the map is the same.
-cp "$config" "$out/hgmm.ini"
-{
-    sed '/^hgmmMap_count/,$d' "$config"
-    echo 'occupancyGrid_count = 1'
-    sed -n '/^\[MappingApplication_occupancyGrid_00_creationOpts\]/,$p' "$stock"
-} >"$out/grid.ini"
+rbpfConfigs "$out"
 
 run() { # MAP SEED
-    local folder=$out/$1-$2
-    mkdir "$folder"
-    cd "$folder"
-    sed "s/^RANDOM_SEED .*/RANDOM_SEED = $2/" "../$1.ini" >config.ini
-    # Seconds of the processor, for other programs may be running.
-    local TIMEFORMAT='%U %S' seconds
-    seconds=$({ time LD_PRELOAD=$out/../lib/libmrpt-hgmm.so OMP_NUM_THREADS=1 \
-        rbpf-slam config.ini </dev/null >log 2>&1; } 2>&1) || { echo "$1 failed"; return; }
+    runRbpf "$1" "$2" || return 0
     grep 'yaw,pitch,roll)=' log | tail -1 |
         sed -E 's/.*\)=\(([-0-9.]+),([-0-9.]+),[-0-9.]+,([-0-9.]+)deg.*/\1 \2 \3/' |
         awk -v map="$1" -v seconds="$seconds" '
             function apart(a, b) { a -= b; while (a > 180) a -= 360; while (a < -180) a += 360; return a < 0 ? -a : a }
-            { split(seconds, s, " ")
-              printf("%s %.3f %.2f %.3f %.2f %.1f\n", map,
+            { printf("%s %.3f %.2f %.3f %.2f %.1f\n", map,
                   sqrt(($1 - 3.4548) ^ 2 + ($2 + 18.0399) ^ 2), apart($3, -86.48),
-                  sqrt(($1 - 4.23) ^ 2 + ($2 + 18.46) ^ 2), apart($3, -87.7), s[1] + s[2]) }'
+                  sqrt(($1 - 4.23) ^ 2 + ($2 + 18.46) ^ 2), apart($3, -87.7), seconds) }'
 }
-export -f run
+export -f run runRbpf
 export out
-for seed in $(seq "${seeds%-*}" "${seeds#*-}"); do
+for seed in $(seq "$firstSeed" "$lastSeed"); do
     for map in "${maps[@]}"; do echo "$map $seed"; done
 done | xargs -P "$(nproc)" -L 1 bash -c 'run $0 $1' >"$out/runs.txt"
 

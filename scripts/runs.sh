@@ -16,3 +16,34 @@ successes() {
     awk -v map="$1" -v count="$2" -v metres="$3" -v degrees="$4" \
         '$1 == map && NF == count && $2 <= metres && $3 <= degrees { ++n } END { print n + 0 }' "$out/runs.txt"
 }
+
+# seedRange SEEDS: sets firstSeed and lastSeed from a number, or FIRST-LAST.
+seedRange() {
+    [[ $1 == *-* ]] && firstSeed=${1%-*} || firstSeed=1
+    lastSeed=${1#*-}
+}
+
+# rbpfConfigs FOLDER: writes hgmm.ini, the shipped configuration of rbpf-slam, and grid.ini, the same
+# but for the map, which is MRPT's grid with its stock options.
+rbpfConfigs() {
+    local config=share/mrpt-hgmm/config_files/rbpf-slam.ini
+    local stock=/usr/share/mrpt/config_files/rbpf-slam/gridmapping_optimal_sampling.ini
+    cp "$config" "$1/hgmm.ini"
+    {
+        sed '/^hgmmMap_count/,$d' "$config"
+        echo 'occupancyGrid_count = 1'
+        sed -n '/^\[MappingApplication_occupancyGrid_00_creationOpts\]/,$p' "$stock"
+    } >"$1/grid.ini"
+}
+
+# runRbpf MAP SEED: runs rbpf-slam in $out/MAP-SEED; sets `seconds`, of the processor, for other
+# programs may be running.
+runRbpf() {
+    mkdir "$out/$1-$2"
+    cd "$out/$1-$2"
+    sed "s/^RANDOM_SEED .*/RANDOM_SEED = $2/" "../$1.ini" >config.ini
+    local TIMEFORMAT='%U %S'
+    seconds=$({ time LD_PRELOAD=$out/../lib/libmrpt-hgmm.so OMP_NUM_THREADS=1 \
+        rbpf-slam config.ini </dev/null >log 2>&1; } 2>&1) || { echo "$1 $2 failed"; return 1; }
+    seconds=$(awk '{ printf("%.1f", $1 + $2) }' <<<"$seconds")
+}

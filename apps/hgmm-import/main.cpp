@@ -9,6 +9,7 @@
 #include "mrpt_pose.h"
 #include "sources/kitti.h"
 #include "sources/pcd.h"
+#include "sources/rawlog.h"
 #include "sources/seven_scenes.h"
 #include "sources/simplemap.h"
 #include "sources/tum.h"
@@ -26,6 +27,7 @@ struct Arguments {
     std::string input, poses;
     std::vector<double> intrinsics, sensorPose, noise;
     bool worldFrame = false;
+    std::optional<double> aperture_deg;
     std::size_t step = 1;
     RecordingOutputs outputs;
 };
@@ -95,7 +97,8 @@ void addOutputs(CLI::App& command, Arguments& arguments) {
         ->type_name("FILE.simplemap");
     auto* actions = command.add_flag(
         "--actions", outputs.actions,
-        "Write pairs of 3D movement (from the poses) and sensory frame, not observations");
+        "Write pairs of movement (from the poses; in 2D for 2D range scans) and sensory "
+        "frame, not observations");
     auto* noise =
         command
             .add_option("--odometry-noise", arguments.noise,
@@ -106,6 +109,14 @@ void addOutputs(CLI::App& command, Arguments& arguments) {
             ->type_name("SIGMA_M,SIGMA_DEG")
             ->check(CLI::NonNegativeNumber)
             ->needs(actions);
+    command
+        .add_option("--turn-error", outputs.turnErrorPerMetre_deg,
+                    "What filters are told of 2D movements: the deviation of the heading "
+                    "[deg] per metre")
+        ->type_name("DEG_PER_M")
+        ->capture_default_str()
+        ->check(CLI::NonNegativeNumber)
+        ->needs(actions);
     command.add_option("--seed", outputs.seed, "Seed of that noise")
         ->type_name("S")
         ->capture_default_str()
@@ -216,6 +227,24 @@ MakeSource addSimpleMap(CLI::App& app, Arguments& arguments) {
     return [&] { return std::make_unique<SimpleMapSource>(arguments.input); };
 }
 
+MakeSource addRawlog(CLI::App& app, Arguments& arguments) {
+    auto* command = app.add_subcommand(
+        "rawlog",
+        "Rawlog of MRPT, in either format: its 2D range scans, with its odometry as poses");
+    addOutputs(*command, arguments);
+    command->add_option("--poses", arguments.poses, "TUM lines of the robot, not odometry")
+        ->type_name("FILE");
+    command
+        ->add_option("--aperture", arguments.aperture_deg,
+                     "Angle from the first ray to the last [deg], where the log is wrong")
+        ->type_name("DEG")
+        ->check(CLI::Range(0.1, 360.0));
+    return [&] {
+        return std::make_unique<RawlogSource>(arguments.input, arguments.poses,
+                                              arguments.aperture_deg);
+    };
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -230,7 +259,8 @@ int main(int argc, char** argv) {
         {"7scenes", addSevenScenes(app, arguments)},
         {"kitti", addKitti(app, arguments)},
         {"pcd", addPcd(app, arguments)},
-        {"simplemap", addSimpleMap(app, arguments)}};
+        {"simplemap", addSimpleMap(app, arguments)},
+        {"rawlog", addRawlog(app, arguments)}};
     try {
         app.parse(argc, argv);
         requireDistinct(arguments.outputs);

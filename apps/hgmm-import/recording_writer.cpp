@@ -2,6 +2,7 @@
 
 #include <mrpt/core/Clock.h>
 #include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
@@ -104,7 +105,12 @@ void RecordingWriter::writeActionPair(const ImportedScan& scan,
             ? Pose{}
             : trajectory_.back().T_world_frame.inverse() * scan.T_world_robot;
     const OdometryNoise noise = trajectory_.empty() ? OdometryNoise{} : outputs_.noise;
-    auto action = makeMotionAction(increment, noise, generator_);
+    const Pose measured = withNoise(increment, noise, generator_);
+    mrpt::obs::CAction::Ptr action;
+    if (IS_CLASS(*scan.observation, mrpt::obs::CObservation2DRangeScan))
+        action = makePlanarMotionAction(measured, outputs_.turnErrorPerMetre_deg);
+    else
+        action = makeMotionAction(measured, noise);
     action->timestamp = scan.observation->timestamp;
     mrpt::obs::CActionCollection actions;
     actions.insert(*action);

@@ -27,6 +27,7 @@ struct RecordingOutputs {
     std::string cloud;
     bool actions = false;  ///< pairs of movement and sensory frame instead of observations
     OdometryNoise noise;   ///< of these movements
+    double turnErrorPerMetre_deg = 1;  ///< deviation that 2D movements state [deg/m]
     std::uint64_t seed = 1;
 };
 
