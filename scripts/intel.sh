@@ -4,7 +4,7 @@
 #   HGMM_DATA_DIR=../shared/data scripts/intel.sh [SEEDS [MAP...]]    default: seed 1 of hgmm and grid
 # SEEDS is a number, or FIRST-LAST. The log says that its laser sees 90 deg; its scans agree with each
 # other over full turns at 179 deg (180 rays, a degree apart). Its odometry turns by 3 deg on a
-# straight metre, which the motion model is told. rbpf-slam needs pairs of actions and sensory
+# straight metre: the motion model is told of a deviation of 5. rbpf-slam needs pairs of actions and sensory
 # frames. hgmm-import does all three. Needs a build. Maps and pictures are in build/intel.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -28,15 +28,15 @@ sed -i "s|^rawlog_file .*|rawlog_file = $out/intel.rawlog|; s/^powFactor .*/powF
 run() { # MAP SEED
     runRbpf "$1" "$2" || return 0
     local folder=$out/$1-$2/LOG_RBPF bytes
+    # Not left to -e, which does not hold here.
     if [[ $1 == hgmm ]]; then
-        mv "$folder"/finalMap_*.hgmm "$out/$1-$2.hgmm"
-        hgmm-map export "$out/$1-$2.hgmm" "$out/$1-$2.yaml" --height 0 >/dev/null
-        hgmm-map export "$out/$1-$2.hgmm" "$out/$1-$2.png" >/dev/null
-        bytes=$(stat -c %s "$out/$1-$2.hgmm")
+        mv "$folder"/finalMap_*.hgmm "$out/$1-$2.hgmm" &&
+            hgmm-map export "$out/$1-$2.hgmm" "$out/$1-$2.yaml" --height 0 >/dev/null &&
+            hgmm-map export "$out/$1-$2.hgmm" "$out/$1-$2.png" >/dev/null &&
+            bytes=$(stat -c %s "$out/$1-$2.hgmm")
     else
-        mv "$folder"/finalMap_*.png "$out/$1-$2.png"
-        bytes=$(stat -c %s "$out/$1-$2.png")
-    fi
+        mv "$folder"/finalMap_*.png "$out/$1-$2.png" && bytes=$(stat -c %s "$out/$1-$2.png")
+    fi || { echo "$1 $2 left no map"; return 0; }
     echo "$1 $2 $seconds $((bytes / 1000))"
 }
 export -f run runRbpf

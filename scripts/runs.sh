@@ -36,7 +36,7 @@ rbpfConfigs() {
     } >"$1/grid.ini"
 }
 
-# runRbpf MAP SEED: runs rbpf-slam in $out/MAP-SEED; sets `seconds`, of the processor, for other
+# runRbpf MAP SEED: runs rbpf-slam in $out/MAP-SEED, where it leaves the shell; sets `seconds`, of the processor, for other
 # programs may be running.
 runRbpf() {
     mkdir "$out/$1-$2"

@@ -44,10 +44,13 @@ mrpt::obs::CActionRobotMovement3D::Ptr makeMotionAction(const Pose& T_from_to,
 }
 
 mrpt::obs::CActionRobotMovement2D::Ptr makePlanarMotionAction(
-    const Pose& T_from_to, double turnErrorPerMetre_deg) {
+    const Pose& T_from_to, const OdometryNoise& noise, double turnErrorPerMetre_deg) {
     mrpt::obs::CActionRobotMovement2D::TMotionModelOptions model;
     model.modelSelection = mrpt::obs::CActionRobotMovement2D::mmGaussian;
     model.gaussianModel.a3 = static_cast<float>(mrpt::DEG2RAD(turnErrorPerMetre_deg));
+    auto& least = model.gaussianModel;
+    least.minStdXY = std::max<double>(least.minStdXY, noise.sigmaMetres);
+    least.minStdPHI = std::max<double>(least.minStdPHI, mrpt::DEG2RAD(noise.sigmaDegrees));
     auto action = mrpt::obs::CActionRobotMovement2D::Create();
     action->computeFromOdometry(mrpt::poses::CPose2D(toMrpt(T_from_to)), model);
     return action;

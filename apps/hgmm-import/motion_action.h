@@ -24,9 +24,10 @@ mrpt::obs::CActionRobotMovement3D::Ptr makeMotionAction(const Pose& T_from_to,
                                                         const OdometryNoise& noise);
 
 /// A movement's x, y and yaw as 2D odometry, with MRPT's default motion model but for the
-/// deviation of the heading.
+/// deviation of the heading, and no surer than the noise.
 /// @param turnErrorPerMetre_deg [deg/m]
 mrpt::obs::CActionRobotMovement2D::Ptr makePlanarMotionAction(const Pose& T_from_to,
+                                                              const OdometryNoise& noise,
                                                               double turnErrorPerMetre_deg);
 
 }  // namespace hgmm::importer

@@ -108,7 +108,7 @@ void RecordingWriter::writeActionPair(const ImportedScan& scan,
     const Pose measured = withNoise(increment, noise, generator_);
     mrpt::obs::CAction::Ptr action;
     if (IS_CLASS(*scan.observation, mrpt::obs::CObservation2DRangeScan))
-        action = makePlanarMotionAction(measured, outputs_.turnErrorPerMetre_deg);
+        action = makePlanarMotionAction(measured, noise, outputs_.turnErrorPerMetre_deg);
     else
         action = makeMotionAction(measured, noise);
     action->timestamp = scan.observation->timestamp;

@@ -239,9 +239,10 @@ void localLandscapeStudy(Recording& recording, const Options& options) {
         }
         progress.advance();
     }
-    for (const std::size_t index : waiting) exploreAmong(window, index, options, scans);
-    report(format("study landscape-local: %s, each scan in a map of %zu scans before and "
-                  "%zu after it",
+    for (const std::size_t index : waiting)
+        if (!interrupted()) exploreAmong(window, index, options, scans);
+    report(format("study landscape-local: %s, each scan in a map of up to %zu scans before "
+                  "and %zu after it",
                   options.log.c_str(), kNeighbours, kNeighbours),
            scans, options);
 }

@@ -15,8 +15,8 @@ void landscapeStudy(hgmm::evaluation::Recording& recording,
                     const Options& options);
 
 /// The same, each test scan in a map of its own: of the three scans before and the three
-/// after it. Poses that drift agree so far, but not over a whole recording, and a maximum
-/// cannot be nearer to them than they are to each other.
+/// after it, of which others may be test scans. Poses that drift agree so far, but not over
+/// a whole recording, and a maximum cannot be nearer to them than they are to each other.
 void localLandscapeStudy(hgmm::evaluation::Recording& recording, const Options& options);
 
 }  // namespace replay

@@ -91,6 +91,17 @@ TEST_F(ImportRawlog, ActionsAreTheOdometryIn2D) {
         const auto frame = log.getAsObservations(2 * i + 1);
         EXPECT_TRUE(frame->getObservationByClass<CObservation2DRangeScan>());
     }
+    // Noise is stated, so that a filter can follow.
+    importIt("rawlog in.rawlog --actions --odometry-noise 0.2,3");
+    mrpt::obs::CRawlog noisy;
+    ASSERT_TRUE(noisy.loadFromRawLogFile(path("out.rawlog").string()));
+    const auto move =
+        noisy.getAsAction(2)->getActionByClass<mrpt::obs::CActionRobotMovement2D>();
+    EXPECT_GT((move->rawOdometryIncrementReading - (robotAt(1) - robotAt(0))).norm(), 1e-3);
+    EXPECT_NEAR(move->motionModelConfiguration.gaussianModel.minStdXY, 0.2, 1e-6);
+    EXPECT_NEAR(move->motionModelConfiguration.gaussianModel.minStdPHI, mrpt::DEG2RAD(3.0),
+                1e-6);
+    importIt("rawlog in.rawlog --actions");
     // A log of pairs is read as well.
     std::filesystem::rename(path("out.rawlog"), path("pairs.rawlog"));
     importIt("rawlog pairs.rawlog");

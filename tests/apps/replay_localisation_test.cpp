@@ -38,6 +38,24 @@ TEST_F(ReplayLocalisation, LandscapeHasItsMaximumAtTheTruth) {
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3) << csv;
 }
 
+// Planar lasers are searched in x, y and yaw.
+TEST_F(ReplayLocalisation, LandscapeOfALaserHasItsMaximumAtTheTruth) {
+    box_room::Entries lasers;
+    for (std::size_t i = 0; i < 24; ++i)
+        lasers.push_back(
+            box_room::laser(box_room::robotPose(i), box_room::timeOfScan(i), 361));
+    box_room::writeRawlog(path("laser.rawlog"), lasers);
+    box_room::writePoses(path("laser.tum"), 24);
+    const Outcome outcome = replay("'" + path("laser.rawlog") + "' --poses '" +
+                                   path("laser.tum") + "' --study landscape --split 6");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto highest = row(outcome.out, "maximum, from the recording's pose");
+    EXPECT_EQ(highest[0], 4);
+    EXPECT_EQ(highest[1], 1) << outcome.out;
+    EXPECT_GE(row(outcome.out, "climbs, from the recording's pose")[1], 0.95)
+        << outcome.out;
+}
+
 // A drift that grows along the recording moves the maximum in a map of all scans, not in
 // one of neighbours.
 TEST_F(ReplayLocalisation, LocalLandscapeBearsDrift) {

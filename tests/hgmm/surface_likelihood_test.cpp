@@ -32,14 +32,16 @@ double squaredDistance(const Gaussian<3>& g, const Eigen::Vector3d& point,
     const Eigen::Matrix3d covariance = g.covariance;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
     const Eigen::Matrix3d axes = solver.eigenvectors();
-    const Eigen::Vector3d edges = (3 * solver.eigenvalues()).cwiseSqrt();
     const double s2 = softening * softening;
     const Eigen::Vector3d apart = axes.transpose() * (point - g.mean);
     double sum = 0;
     for (int a = 0; a < 3; ++a) {
-        const double half = a == 0 ? 0.0 : edges[a];
+        const double own = solver.eigenvalues()[a], least = solver.eigenvalues()[0];
+        const double aspect = std::sqrt(own / solver.eigenvalues()[2]);
+        const double along = a == 0 ? 0.0 : std::clamp(8 * aspect - 1, 0.0, 1.0);
+        const double half = std::sqrt(3 * own * along);
         const double variance =
-            solver.eigenvalues()[0] + s2 * std::pow(s2 / (s2 + half * half), 2);
+            least + (1 - along) * (own - least) + s2 * std::pow(s2 / (s2 + half * half), 2);
         double best = std::numeric_limits<double>::infinity();
         constexpr int steps = 2000;
         for (int u = -steps; u <= steps; ++u)
@@ -64,7 +66,8 @@ Mixture<3> tiltedPatches(int n, unsigned seed) {
         Gaussian<3> g;
         g.support = 1 + i;
         g.mean = vector();
-        const Eigen::Vector3d sigma(0.01, 0.1, 0.2 + 0.1 * (i % 3));
+        // Rectangles, lines, and what is between them.
+        const Eigen::Vector3d sigma(0.01, i % 2 == 0 ? 0.1 : 0.04, 0.2 + 0.1 * (i % 3));
         g.covariance = axes * sigma.cwiseAbs2().asDiagonal() * axes.transpose();
         mixture.pushBack(g);
     }
@@ -134,6 +137,23 @@ TEST(SurfaceLikelihood, EndsOfLongPiecesAreSharp) {
         const double expected = std::log(0.05 + 0.95 * std::exp(-50 * off * off));
         EXPECT_NEAR(likelihood(0, float(off), 0), expected, 0.15);
         EXPECT_NEAR(likelihood(0, 0, float(off)), expected, 0.15);
+    }
+}
+
+// The thinnest direction of what a planar laser drew is the vertical: the wall's normal
+// must not count as an extent of it.
+TEST(SurfaceLikelihood, LinesHaveAMiddle) {
+    Mixture<3> wall;
+    Gaussian<3> line;
+    line.support = 10;
+    line.covariance.diagonal() << 1.4 * 1.4, 0.05 * 0.05, 0.008 * 0.008;
+    wall.pushBack(line);
+    const SurfaceLikelihood likelihood(wall, 0.02, 0.05);
+    for (const double off : {0.0, 0.03, 0.06, 0.1}) {
+        const double variance = 0.05 * 0.05 + 0.02 * 0.02;
+        EXPECT_NEAR(likelihood(0.3F, float(off), 0),
+                    std::log(0.05 + 0.95 * std::exp(-0.5 * off * off / variance)), 1e-3);
+        EXPECT_NEAR(likelihood(2.F, float(off), 0), likelihood(0.F, float(off), 0), 1e-3);
     }
 }
 

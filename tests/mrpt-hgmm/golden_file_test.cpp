@@ -98,10 +98,9 @@ void expectLogDensity(const hgmm::Map& map, const std::vector<double>& answer) {
         EXPECT_NEAR(got, answer[3], 1e-4 * std::abs(answer[3]) + 1e-4);
 }
 
-/// Options that came after all of these files have their defaults.
+/// Before there was a limit to independent points, all of them counted.
 void forgetYoungOptions(CHGMMOccupancyMap& map) {
-    map.likelihoodOptions.independentPoints =
-        CHGMMOccupancyMap().likelihoodOptions.independentPoints;
+    map.likelihoodOptions.independentPoints = hgmm::mrpt_bridge::kMaxPoints;
 }
 
 TEST(GoldenFile, MapOfVersion0LoadsAndAnswersAsEver) {

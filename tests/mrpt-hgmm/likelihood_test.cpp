@@ -28,7 +28,7 @@ TEST(Likelihood, IsHighestAtThePoseOfTheScan) {
     const auto scan = observations::laser();
     const double best = map.computeObservationLikelihood(*scan, kTrue);
     EXPECT_LE(best, 0);
-    EXPECT_GT(best, -0.5 * map.likelihoodOptions.maxPoints);
+    EXPECT_GT(best, -0.5 * double(scan->getScanSize()));
     double last = best;
     for (const double shift_m : {0.3, 0.6, 1.2}) {
         const double value =

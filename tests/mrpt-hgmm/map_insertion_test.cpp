@@ -7,6 +7,7 @@
 
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
 #include "observations.h"
+#include "shared_samples.h"
 
 using mrpt::maps::CHGMMOccupancyMap;
 using mrpt::poses::CPose3D;
@@ -77,6 +78,26 @@ TEST(MapInsertion, OptionsReachTheModel) {
               fine.model().mixture().totalSupport());
     coarse.insertionOptions.params.filter.minRange_m = -1;
     EXPECT_THROW(coarse.insertObservation(*observations::laser()), std::invalid_argument);
+}
+
+// An unsupported observation must not even apply options, bad ones here.
+TEST(MapInsertion, WhatIsNotUnderstoodTouchesNothing) {
+    CHGMMOccupancyMap map;
+    map.insertionOptions.params.filter.minRange_m = -1;
+    EXPECT_FALSE(map.insertObservation(mrpt::obs::CObservationOdometry()));
+}
+
+TEST(MapInsertion, SharedSamplesOutliveOtherObservations) {
+    const auto scan = observations::laser();
+    const hgmm::MapParams params;
+    const auto samples = hgmm::mrpt_bridge::sharedSamplesOf(*scan, params);
+    ASSERT_TRUE(samples);
+    for (int i = 0; i < 9; ++i)
+        EXPECT_FALSE(
+            hgmm::mrpt_bridge::sharedSamplesOf(mrpt::obs::CObservationOdometry(), params));
+    EXPECT_EQ(hgmm::mrpt_bridge::sharedSamplesOf(*scan, params), samples);
+    hgmm::mrpt_bridge::forgetSharedSamples();
+    EXPECT_NE(hgmm::mrpt_bridge::sharedSamplesOf(*scan, params), samples);
 }
 
 // What is made of an observation is shared by all maps of the process: by particles.

@@ -46,19 +46,55 @@ TEST(RecentObservations, KeepsTheLastFourOnly) {
     EXPECT_EQ(numbers.of(*scan, 0), 5) << "the oldest went";
 }
 
+/// Moves one point, or one byte of a packet, in the midst of the data.
+void moveOnePoint(mrpt::obs::CObservation& o) {
+    using namespace mrpt::obs;
+    if (auto* scan = dynamic_cast<CObservation2DRangeScan*>(&o)) {
+        scan->setScanRange(77, scan->getScanRange(77) + 0.001F);
+    } else if (auto* image = dynamic_cast<CObservation3DRangeScan*>(&o)) {
+        if (image->hasRangeImage)
+            image->rangeImage(17, 33) += 1;
+        else
+            image->points3D_y.at(image->points3D_y.size() / 2) += 0.001F;
+    } else if (auto* cloud = dynamic_cast<CObservationPointCloud*>(&o)) {
+        float x = 0, y = 0, z = 0;
+        cloud->pointcloud->getPoint(57, x, y, z);
+        cloud->pointcloud->setPoint(57, x, y, z + 0.001F);
+    } else if (auto* velodyne = dynamic_cast<CObservationVelodyneScan*>(&o)) {
+        if (velodyne->point_cloud.size() > 0)
+            velodyne->point_cloud.z.at(velodyne->point_cloud.size() / 2) += 0.001F;
+        else
+            reinterpret_cast<std::uint8_t*>(velodyne->scan_packets.data())[501] ^= 1U;
+    } else if (auto* rotating = dynamic_cast<CObservationRotatingScan*>(&o)) {
+        rotating->rangeImage(0, rotating->columnCount / 2) += 1;
+    } else {
+        FAIL() << o.GetRuntimeClass()->className;
+    }
+}
+
 TEST(RecentObservations, WholeDigestSeesAnyPoint) {
     for (const auto& [name, o] : observations::all()) {
         Numbers numbers(Digested::whole);
         EXPECT_EQ(numbers.of(*o), 0);
-        if (auto* scan = dynamic_cast<mrpt::obs::CObservation2DRangeScan*>(o.get()))
-            scan->setScanRange(77, scan->getScanRange(77) + 0.001F);
-        else if (auto* image = dynamic_cast<mrpt::obs::CObservation3DRangeScan*>(o.get());
-                 image && image->hasRangeImage)
-            image->rangeImage(17, 33) += 1;
-        else
-            continue;
+        moveOnePoint(*o);
         EXPECT_EQ(numbers.of(*o), 1) << name;
     }
+}
+
+TEST(RecentObservations, FieldsThatPlacePointsCount) {
+    Numbers numbers(Digested::sample);
+    const auto image = observations::depthImage();
+    EXPECT_EQ(numbers.of(*image), 0);
+    image->cameraParams.dist[0] = 0.1;
+    EXPECT_EQ(numbers.of(*image), 1);
+    mrpt::obs::CObservationVelodyneScan velodyne;
+    EXPECT_EQ(numbers.of(velodyne), 2);
+    velodyne.maxRange = 7;
+    EXPECT_EQ(numbers.of(velodyne), 3);
+    mrpt::obs::CObservationRotatingScan rotating;
+    EXPECT_EQ(numbers.of(rotating), 4);
+    rotating.lidarModel = "VLP-16";
+    EXPECT_EQ(numbers.of(rotating), 5);
 }
 
 }  // namespace

@@ -5,6 +5,9 @@
 namespace hgmm {
 
 ScanSamples samplesOf(const Scan& scan, const MapParams& params) {
+    scan.validate();
+    params.filter.validate();
+    params.cells.validate();
     ScanSamples result;
     result.samples_sensor = filterScan(scan, params.filter, &result.points);
     bridgeGaps(result.samples_sensor, params.cells);

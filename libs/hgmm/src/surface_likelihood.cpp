@@ -44,6 +44,16 @@ double softening(double halfEdge_m2, double softeningVariance_m2) {
     return softeningVariance_m2 * thin * thin;
 }
 
+/// How far the extent along an axis is one of the surface, from 0 to 1, and not spread
+/// across a line: a wall that a planar laser drew is thin in two directions, the vertical
+/// and its own normal, whichever is the thinner.
+double extended(double variance_m2, double largestVariance_m2) {
+    constexpr double line = 1.0 / 8, strip = 1.0 / 4;
+    if (!(largestVariance_m2 > 0)) return 1;
+    const double aspect = std::sqrt(std::max(variance_m2, 0.0) / largestVariance_m2);
+    return std::clamp((aspect - line) / (strip - line), 0.0, 1.0);
+}
+
 }  // namespace
 
 SurfaceLikelihood::SurfaceLikelihood(const Mixture<3>& mixture, double softeningStd_m,
@@ -87,10 +97,13 @@ void SurfaceLikelihood::enter(const Mixture<3>& mixture, std::uint32_t i) {
     Patch patch;
     Eigen::Vector3d reach = Eigen::Vector3d::Zero();
     for (int a = 0; a < 3; ++a) {
-        const double halfEdge_m2 = a == 0 ? 0.0 : 3 * solver.eigenvalues()[a];
+        const double variance_m2 = std::max(solver.eigenvalues()[a], thickness_m2);
+        const double along = a == 0 ? 0.0 : extended(variance_m2, solver.eigenvalues()[2]);
+        const double halfEdge_m2 = 3 * variance_m2 * along;
         const double s =
-            std::sqrt(thickness_m2 + softening(halfEdge_m2, softeningVariance_m2_));
-        const double halfEdge = std::sqrt(std::max(halfEdge_m2, 0.0));
+            std::sqrt(thickness_m2 + (1 - along) * (variance_m2 - thickness_m2) +
+                      softening(halfEdge_m2, softeningVariance_m2_));
+        const double halfEdge = std::sqrt(halfEdge_m2);
         const Eigen::Vector3d axis = solver.eigenvectors().col(a);
         for (int d = 0; d < 3; ++d) patch.axes[a][d] = static_cast<float>(axis[d] / s);
         if (a > 0) patch.halfEdge[a - 1] = static_cast<float>(halfEdge / s);

@@ -108,6 +108,7 @@ void CHGMMOccupancyMap::internal_clear() {
 bool CHGMMOccupancyMap::internal_insertObservation(
     const mrpt::obs::CObservation& observation,
     const std::optional<const mrpt::poses::CPose3D>& robotPose) {
+    if (!bridge::isSupported(observation)) return false;
     if (!insertionOptions.params.modalities.empty()) {
         const auto scan = bridge::observationToScan(observation, robotPose);
         return scan && insertScan(*scan).samples > 0;

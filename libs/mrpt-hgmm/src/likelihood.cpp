@@ -83,7 +83,7 @@ ObservationLikelihood& ObservationLikelihood::operator=(const ObservationLikelih
 double ObservationLikelihood::operator()(const Map& map, const LikelihoodParams& params,
                                          const mrpt::obs::CObservation& observation,
                                          const mrpt::poses::CPose3D& T_map_robot) const {
-    if (map.empty()) return 0;
+    if (map.empty() || !isSupported(observation)) return 0;
     const auto points = recentPoints().get(observation, params, [&] {
         return std::make_shared<const Points>(pointsToCompare(observation, params));
     });

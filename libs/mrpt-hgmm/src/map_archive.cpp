@@ -92,10 +92,19 @@ const OptionField* findStored(const OptionFields& fields, const std::string& nam
     fail("it holds an option '" + name + "' that this version does not know");
 }
 
-/// Fields are found by name; one that is not stored keeps its default.
+/// Sets options to what they amounted to before they were there, if that is not the
+/// default.
+template <typename Options>
+void setFormer(Options&) {}
+void setFormer(CHGMMOccupancyMap::TLikelihoodOptions& options) {
+    options.independentPoints = kMaxPoints;
+}
+
+/// Fields are found by name; one that is not stored keeps its former meaning or default.
 template <typename Options>
 Options readOptions(CArchive& in, std::uint8_t version) {
     Options options;
+    setFormer(options);
     const OptionFields fields = fieldsOf(options);
     for (unsigned left = in.ReadAs<std::uint8_t>(); left > 0; --left) {
         const auto name = readText<std::uint8_t>(in);

@@ -50,6 +50,11 @@ bool isSupported(const CObservation& observation) {
     return visitSupported(observation, [](const auto& o) { return canRead(o); });
 }
 
+std::mutex& externalStorageMutex() {
+    static std::mutex mutex;
+    return mutex;
+}
+
 void warnOnce(const std::string& message) {
     static std::mutex mutex;
     static std::set<std::string> given;

@@ -58,8 +58,8 @@ OptionFields fieldsOf(Render& options) {
 void LikelihoodParams::validate() const {
     requireInRange("softening_m", softening_m, 0.0, 10.0);
     requireInRange("outlierRatio", outlierRatio, 1e-9, 1.0 - 1e-9);
-    requireInRange("maxPoints", maxPoints, 1, 1e6);
-    requireInRange("independentPoints", independentPoints, 1, 1e6);
+    requireInRange("maxPoints", maxPoints, 1, kMaxPoints);
+    requireInRange("independentPoints", independentPoints, 1, kMaxPoints);
     requireInRange("minRange_m", minRange_m, 0.0, 1e6);
     requireInRange("maxRange_m", maxRange_m, minRange_m, 1e6);
 }

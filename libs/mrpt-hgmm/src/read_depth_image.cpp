@@ -10,10 +10,14 @@ namespace hgmm::mrpt_bridge {
 
 namespace {
 
-/// Loads externally stored fields, and unloads them at the end if they were not in memory.
+/// Loads externally stored fields, and unloads them at the end if they were not in memory;
+/// for one thread at a time.
 class LoadedScope {
  public:
     explicit LoadedScope(const CObservation3DRangeScan& o) : observation_(o) {
+        if (o.points3D_isExternallyStored() || o.rangeImage_isExternallyStored() ||
+            o.intensityImage.isExternallyStored())
+            lock_ = std::unique_lock<std::mutex>(externalStorageMutex());
         const bool pointsOutside = o.points3D_isExternallyStored() && o.points3D_x.empty();
         const bool rangesOutside = o.rangeImage_isExternallyStored() &&
                                    o.rangeImage.rows() * o.rangeImage.cols() == 0;
@@ -30,6 +34,7 @@ class LoadedScope {
 
  private:
     const CObservation3DRangeScan& observation_;
+    std::unique_lock<std::mutex> lock_;
     bool unload_ = false;
 };
 

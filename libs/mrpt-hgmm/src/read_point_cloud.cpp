@@ -79,6 +79,8 @@ void readCloud(const CObservationVelodyneScan::TPointCloud& cloud, Channels chan
 }  // namespace
 
 bool readScan(const CObservationPointCloud& o, Channels channels, Scan& scan) {
+    std::unique_lock<std::mutex> lock;
+    if (o.isExternallyStored()) lock = std::unique_lock<std::mutex>(externalStorageMutex());
     const bool unloadAfter = o.isExternallyStored() && !o.pointcloud;
     o.load();
     if (o.pointcloud) readCloud(*o.pointcloud, channels, scan);

@@ -22,7 +22,8 @@ class RecentObservations {
  public:
     explicit RecentObservations(Digested digested) : digested_(digested) {}
 
-    /// The value remembered, or make(), which several threads may call at once.
+    /// The value remembered, or make(), which several threads may call at once. Null is
+    /// not remembered.
     template <typename Make>
     std::shared_ptr<const Value> get(const mrpt::obs::CObservation& observation,
                                      const Params& params, Make&& make) {
@@ -35,6 +36,7 @@ class RecentObservations {
                     return entry.value;
         }
         std::shared_ptr<const Value> value = make();
+        if (!value) return value;
         const std::lock_guard<std::mutex> lock(mutex_);
         entries_[next_] = {&observation, digest, params, value};
         next_ = (next_ + 1) % entries_.size();

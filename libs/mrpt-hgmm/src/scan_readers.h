@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -55,6 +56,10 @@ bool visitSupported(const mrpt::obs::CObservation& observation, Visitor&& visit)
         return visit(*o);
     return false;
 }
+
+/// Held while an observation's external file is in memory: loading changes observations
+/// that are const to all others.
+std::mutex& externalStorageMutex();
 
 /// Prints a message on stderr the first time that it is given.
 void warnOnce(const std::string& message);

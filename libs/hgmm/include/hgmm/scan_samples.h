@@ -11,11 +11,12 @@ namespace hgmm {
 /// which put one scan into many maps, share it.
 struct ScanSamples {
     Mixture<3>
-        samples_sensor;  ///< after the filter (filterScan), gaps bridged (bridgeGaps)
-    FilterCounts points;
+        samples_sensor;   ///< after the filter (filterScan), gaps bridged (bridgeGaps)
+    FilterCounts points;  ///< that the filter kept and dropped
 };
 
-/// Uses params.filter and params.cells.
+/// Uses params.filter and params.cells. Throws std::invalid_argument for a malformed scan
+/// (Scan::validate) and for fields out of range.
 ScanSamples samplesOf(const Scan& scan, const MapParams& params);
 
 }  // namespace hgmm

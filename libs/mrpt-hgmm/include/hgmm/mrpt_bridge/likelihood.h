@@ -13,14 +13,18 @@
 
 namespace hgmm::mrpt_bridge {
 
+constexpr int kMaxPoints = 1000000;
+
 /// Which points of a scan are compared with the map, and how.
 struct LikelihoodParams {
     double softening_m = 0.02;  ///< standard deviation added to all surfaces [m], 0 to 10
     double outlierRatio =
-        0.05;              ///< share of points that the map need not explain, in (0, 1)
-    int maxPoints = 1000;  ///< points compared, spread over the scan [count], >= 1
-    /// More points count together as so many [count], >= 1: the errors of neighbours are
-    /// alike, and a particle filter must not be surer than the scan makes it.
+        0.05;  ///< share of points that the map need not explain, in (0, 1)
+    /// Points compared, spread over the scan [count], 1 to kMaxPoints.
+    int maxPoints = 1000;
+    /// More points count together as so many [count], 1 to kMaxPoints: the errors of
+    /// neighbours are alike, and a particle filter must not be surer than the scan makes
+    /// it.
     int independentPoints = 100;
     double minRange_m = 0.1;   ///< nearer points are left out [m], >= 0
     double maxRange_m = 80.0;  ///< farther points are left out [m], > minRange_m
@@ -36,7 +40,7 @@ struct LikelihoodParams {
 ///
 /// Keeps what calls have in common: the map's surfaces, brought up to date where the map
 /// changed since invalidate(), and, for all maps of the process, the points of the last few
-/// observations (RecentObservations). Const calls may come from several threads. Copies
+/// observations. Const calls may come from several threads. Copies
 /// share the surfaces.
 class ObservationLikelihood {
  public:
