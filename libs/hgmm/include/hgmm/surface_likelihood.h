@@ -16,7 +16,9 @@ namespace hgmm {
 /// variances there, with half edges h = sqrt(3) sigma. d_j^2 sums, over the principal axes,
 /// the squared distance to the patch over
 ///   sigma_normal^2 + softeningStd_m^2 (softeningStd_m^2 / (softeningStd_m^2 + h^2))^2
-/// with h = 0 for the normal. So p is the same all along a wall, where Gaussians would draw
+/// with h = 0 for the normal. Where sigma is below a quarter of the largest, the patch is
+/// more and more of a line: h shrinks to 0 at an eighth, and sigma takes the place of
+/// sigma_normal. So p is the same all along a wall, where Gaussians would draw
 /// points towards the middles of the pieces that it happens to be cut into; and ends of
 /// long pieces are sharp, as they often end only because no more was seen yet: soft ends
 /// would draw points of the next piece, so that motion is underestimated. p depends neither
