@@ -17,7 +17,7 @@ CHGMMOccupancyMap roomMap() {
     map.insertObservation(*observations::laser(), CPose3D(0, 0, 0.2, 0, 0, 0));
     map.insertObservation(*observations::laser(), CPose3D(0, 0, 0.2, M_PI, 0, 0));
     map.likelihoodOptions.softening_m = 0.05;
-    map.likelihoodOptions.independentPoints = 1000000;
+    map.likelihoodOptions.independentPoints = hgmm::mrpt_bridge::kMaxPoints;
     return map;
 }
 

@@ -44,12 +44,13 @@ class LogOfProduct {
 
 using Points = std::vector<Eigen::Vector3d>;  // in the robot's frame
 
-Points pointsToCompare(const mrpt::obs::CObservation& observation,
-                       const LikelihoodParams& params) {
+/// Null for observations that cannot be understood.
+std::shared_ptr<const Points> pointsToCompare(const mrpt::obs::CObservation& observation,
+                                              const LikelihoodParams& params) {
     params.validate();
-    Points points;
     const auto scan = observationToScan(observation, std::nullopt, Channels::none);
-    if (!scan) return points;
+    if (!scan) return nullptr;
+    auto points = std::make_shared<Points>();
     std::vector<std::size_t> inRange;
     for (std::size_t i = 0; i < scan->size(); ++i) {
         const double range = std::hypot(scan->x[i], scan->y[i], scan->z[i]);
@@ -58,9 +59,9 @@ Points pointsToCompare(const mrpt::obs::CObservation& observation,
     const Pose& T_robot_sensor = scan->T_map_sensor;
     for (const std::size_t k : spreadIndices(inRange.size(), params.maxPoints)) {
         const std::size_t i = inRange[k];
-        points.push_back(T_robot_sensor.R *
-                             Eigen::Vector3d(scan->x[i], scan->y[i], scan->z[i]) +
-                         T_robot_sensor.t);
+        points->push_back(T_robot_sensor.R *
+                              Eigen::Vector3d(scan->x[i], scan->y[i], scan->z[i]) +
+                          T_robot_sensor.t);
     }
     return points;
 }
@@ -83,11 +84,10 @@ ObservationLikelihood& ObservationLikelihood::operator=(const ObservationLikelih
 double ObservationLikelihood::operator()(const Map& map, const LikelihoodParams& params,
                                          const mrpt::obs::CObservation& observation,
                                          const mrpt::poses::CPose3D& T_map_robot) const {
-    if (map.empty() || !isSupported(observation)) return 0;
-    const auto points = recentPoints().get(observation, params, [&] {
-        return std::make_shared<const Points>(pointsToCompare(observation, params));
-    });
-    if (points->empty()) return 0;
+    if (map.empty()) return 0;
+    const auto points = recentPoints().get(
+        observation, params, [&] { return pointsToCompare(observation, params); });
+    if (!points || points->empty()) return 0;
     const auto surfaces = surfacesOf(map, params);
 
     const Pose T = toPose(T_map_robot);

@@ -38,7 +38,9 @@ class Digest {
                  std::size_t most = 1024) {
         add(rows * cols);
         const std::size_t step =
-            digested_ == Digested::whole ? 1 : std::max<std::size_t>(1, rows * cols / most);
+            digested_ == Digested::whole
+                ? 1
+                : std::max<std::size_t>(1, (rows * cols + most - 1) / most);
         // Several chains, for each waits for its own last step only.
         std::array<std::uint64_t, 4> lanes{1, 2, 3, 4};
         std::size_t lane = 0, first = 0;

@@ -12,8 +12,7 @@ enum class Digested {
 };
 
 /// Tells observations at the same address apart: a hash of time stamp, sensor pose, the
-/// fields that place its points, and its data, or of the names of the files that hold
-/// them.
+/// fields that place its points, and its data, or the names of the files that hold them.
 std::uint64_t digestOf(const mrpt::obs::CObservation& observation, Digested digested);
 
 }  // namespace hgmm::mrpt_bridge
