@@ -78,6 +78,33 @@ TEST(Gaps, ALineAloneIsLeftAlone) {
     EXPECT_EQ(samples, before);
 }
 
+// All of a planar laser's points lie in a plane, that of its rays, which is no surface:
+// walls would be as thick as the corner beside them.
+TEST(Gaps, ThePlaneOfTheRaysIsNoSurface) {
+    for (const double tilt : {0.0, 0.3}) {
+        Mixture<3> samples;
+        for (int i = 0; i < 200; ++i) {
+            const double along = 0.02 * i, up = std::sin(tilt);
+            add(samples, 5.3, along, 5.3 * up);
+            add(samples, 1.3 + along, 3.7, (1.3 + along) * up);
+        }
+        const Mixture<3> before = samples;
+        bridgeGaps(samples, {});
+        EXPECT_EQ(samples, before);
+    }
+}
+
+// The rings of a lidar on the ground under it meet far out, where rays are nearly level.
+TEST(Gaps, GroundSeenAtASmallAngleIsASurface) {
+    Mixture<3> samples;
+    for (const double range : {29.0, 31.0, 33.0, 35.0})
+        for (int i = -200; i < 200; ++i)
+            add(samples, range * std::cos(0.002 * i), range * std::sin(0.002 * i), -1.0);
+    const Mixture<3> before = samples;
+    bridgeGaps(samples, {});
+    EXPECT_GT(grown(before, samples), samples.size() / 2);
+}
+
 TEST(Gaps, VegetationIsLeftAlone) {
     // A bush of 4 m: so thin that cells hold few samples each.
     std::mt19937_64 engine(1);

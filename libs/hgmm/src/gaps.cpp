@@ -24,6 +24,11 @@ constexpr double kFlatness = 0.1;
 /// meet spread by 0.29 g each.
 constexpr double kBridge = 0.5;
 
+/// A plane is seen at no less than this angle [rad]: the points of one that holds the
+/// sensor lie in it because the rays do, as all those of a planar laser, not because they
+/// hit it.
+constexpr double kLeastIncidence = 0.01;
+
 /// Scatter of the sample means in a cell.
 struct Content {
     int count = 0;
@@ -40,9 +45,9 @@ struct Content {
         sum += o.sum;
         sumOuter += o.sumOuter;
     }
+    Eigen::Vector3d mean() const { return sum / count; }
     Eigen::Matrix3d scatter() const {
-        const Eigen::Vector3d mean = sum / count;
-        return sumOuter / count - mean * mean.transpose();
+        return sumOuter / count - mean() * mean().transpose();
     }
     /// Whether two of the standard deviations are at least `least`; without eigenvalues,
     /// for it is asked for every cell: the sum of the principal 2 x 2 minors is about the
@@ -67,6 +72,8 @@ Eigen::Matrix3d bridge(const Content& own, const Content& around) {
     const Eigen::Vector3d spread = plane.eigenvalues().cwiseMax(0.0).cwiseSqrt();
     if (spread[0] > kFlatness * spread[1]) return Eigen::Matrix3d::Zero();
     const Eigen::Vector3d normal = plane.eigenvectors().col(0);
+    if (std::abs(normal.dot(around.mean())) < kLeastIncidence * around.mean().norm())
+        return Eigen::Matrix3d::Zero();
     Eigen::Matrix3d wider = Eigen::Matrix3d::Zero();
     const auto widen = [&](const Eigen::Vector3d& direction) {
         wider += kBridge * kBridge * direction.dot(around.scatter() * direction) *

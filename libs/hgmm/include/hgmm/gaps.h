@@ -12,7 +12,8 @@ namespace hgmm {
 /// around it are tried, up to kGapDoublings doublings. The first whose samples lie on a
 /// plane tells the direction of the gap, in the plane and across the line, and its width;
 /// the covariance of the samples grows along it so that their Gaussians meet. Samples on
-/// rough ground, vegetation, or with nothing around them stay as they are.
+/// rough ground, vegetation, or with nothing around them stay as they are, and so do those
+/// of a plane that holds the sensor: that of the rays of a planar laser.
 ///
 /// @param samples in the sensor frame; only covariances change
 void bridgeGaps(Mixture<3>& samples, const CellParams& params);
