@@ -17,7 +17,10 @@ function(hgmm_target TARGET)
     endif()
     if(HGMM_SANITIZE)
         target_compile_options(${TARGET} PRIVATE
-            -fsanitize=${ARG_SANITIZERS} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+            -fsanitize=${ARG_SANITIZERS} -fno-omit-frame-pointer -fno-sanitize-recover=all
+            # Two fifths of the time to compile; null pointers and accesses outside of
+            # objects are the address sanitizer's, too.
+            -fno-sanitize=null,object-size,alignment,pointer-overflow)
         target_link_options(${TARGET} PUBLIC -fsanitize=address,undefined)
     endif()
 endfunction()

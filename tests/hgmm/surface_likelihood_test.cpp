@@ -26,6 +26,15 @@ Mixture<3> wallAndPost() {
     return mixture;
 }
 
+/// p at the squared distance to the nearest patch.
+double probabilityAt(double squaredDistance, double outlierRatio) {
+    const auto tail = [](double squared) { return 1 / (1 + 0.5 * squared); };
+    // Where the tail adds half of the outlier ratio, or at 20, it has been lowered to 0.
+    const double end = std::max(outlierRatio / (2 - outlierRatio), tail(400));
+    return outlierRatio +
+           (1 - outlierRatio) * std::max(0.0, (tail(squaredDistance) - end) / (1 - end));
+}
+
 /// Sum over the axes of one patch, by trying a fine grid of points on it.
 double squaredDistance(const Gaussian<3>& g, const Eigen::Vector3d& point,
                        double softening) {
@@ -79,7 +88,7 @@ TEST(SurfaceLikelihood, IsItsFormula) {
     std::mt19937 random(2);
     std::normal_distribution<double> normal(0, 0.15);
     int onIt = 0, beside = 0;
-    for (const double outliers : {0.05, 0.5}) {
+    for (const double outliers : {1e-4, 0.05, 0.5}) {
         const SurfaceLikelihood likelihood(mixture, 0.1, outliers);
         for (std::size_t i = 0; i < 80; ++i) {
             const Eigen::Vector3d p =
@@ -88,11 +97,10 @@ TEST(SurfaceLikelihood, IsItsFormula) {
             double squared = std::numeric_limits<double>::infinity();
             for (std::size_t j = 0; j < 8; ++j)
                 squared = std::min(squared, squaredDistance(mixture[j], p, 0.1));
-            const double expected = outliers + (1 - outliers) * std::exp(-0.5 * squared);
+            const double expected = probabilityAt(squared, outliers);
             const Eigen::Vector3f f = p.cast<float>();
             const double actual = likelihood.probability(f.x(), f.y(), f.z());
-            // What is left out, and the grid of the oracle.
-            EXPECT_NEAR(actual, expected, 0.02 * outliers + 0.001) << squared;
+            EXPECT_NEAR(actual, expected, 0.001) << squared;  // the grid of the oracle
             EXPECT_DOUBLE_EQ(likelihood(f.x(), f.y(), f.z()), std::log(actual));
             if (squared < 1) ++onIt;
             if (squared > 4 && squared < 25) ++beside;
@@ -100,6 +108,22 @@ TEST(SurfaceLikelihood, IsItsFormula) {
     }
     EXPECT_GT(onIt, 20);
     EXPECT_GT(beside, 10);
+}
+
+// The Gaussian of the same width is flat there: nothing would lead back to the wall.
+TEST(SurfaceLikelihood, LeadsBackFromSeveralWidthsAway) {
+    const SurfaceLikelihood likelihood(wallAndPost(), 0.02, 0.05);
+    const double width = std::hypot(0.01, 0.02);
+    for (double off = 0; off < 8; off += 0.5)
+        EXPECT_GT(likelihood(float(-off * width), 0, 0),
+                  likelihood(float(-(off + 0.5) * width), 0, 0) + 0.005)
+            << off;
+    const SurfaceLikelihood unforgiving(wallAndPost(), 0.02, 1e-9);
+    EXPECT_GT(unforgiving(float(-19.9 * width), 0, 0), std::log(1e-9) + 1);
+    EXPECT_EQ(unforgiving(float(-20.1 * width), 0, 0), std::log(1e-9));
+    // The tail ends without a step.
+    EXPECT_NEAR(likelihood(float(-8.7 * width), 0, 0), std::log(0.05), 0.02);
+    EXPECT_EQ(likelihood(float(-8.9 * width), 0, 0), std::log(0.05));
 }
 
 // Gaussians in place of patches would fall to a fifth halfway between two of them.
@@ -131,10 +155,10 @@ TEST(SurfaceLikelihood, EndsOfLongPiecesAreSharp) {
     wall.pushBack(piece);
     const SurfaceLikelihood likelihood(wall, 0.1, 0.05);
     EXPECT_NEAR(likelihood(0.49F, 0, 0), 0, 1e-3);
-    EXPECT_NEAR(likelihood(0.55F, 0, 0), std::log(0.05), 0.03);
+    EXPECT_NEAR(likelihood(0.6F, 0, 0), std::log(0.05), 0.03);
     // Across it, and above the line that a planar laser draws, all of the softening counts.
     for (const double off : {0.05, 0.1}) {
-        const double expected = std::log(0.05 + 0.95 * std::exp(-50 * off * off));
+        const double expected = std::log(probabilityAt(100 * off * off, 0.05));
         EXPECT_NEAR(likelihood(0, float(off), 0), expected, 0.15);
         EXPECT_NEAR(likelihood(0, 0, float(off)), expected, 0.15);
     }
@@ -152,7 +176,7 @@ TEST(SurfaceLikelihood, LinesHaveAMiddle) {
     for (const double off : {0.0, 0.03, 0.06, 0.1}) {
         const double variance = 0.05 * 0.05 + 0.02 * 0.02;
         EXPECT_NEAR(likelihood(0.3F, float(off), 0),
-                    std::log(0.05 + 0.95 * std::exp(-0.5 * off * off / variance)), 1e-3);
+                    std::log(probabilityAt(off * off / variance, 0.05)), 1e-3);
         EXPECT_NEAR(likelihood(2.F, float(off), 0), likelihood(0.F, float(off), 0), 1e-3);
     }
 }

@@ -14,9 +14,20 @@ namespace {
 /// Thinner patches would not be finite in floats [m^2].
 constexpr double kMinVariance_m2 = 1e-12;
 
-/// Where (1 - outlierRatio) exp(-1/2 reach^2) is a fiftieth of outlierRatio.
+/// The tail ends where it would add so much of the outlier ratio.
+constexpr double kTailEnd = 0.5;
+
+/// But no farther away than so many widths: small ratios would let all patches have a say.
+constexpr double kFarthest = 20;
+
+/// 1 / (1 + 1/2 reach^2), what the kernel is lowered by to end at 0.
+double tailEndOf(double outlierRatio) {
+    return std::max(1 / (1 + (1 - outlierRatio) / (kTailEnd * outlierRatio)),
+                    1 / (1 + 0.5 * kFarthest * kFarthest));
+}
+
 double reachOf(double outlierRatio) {
-    return std::sqrt(2 * std::log(1 + 50 * (1 - outlierRatio) / outlierRatio));
+    return std::sqrt(2 * (1 / tailEndOf(outlierRatio) - 1));
 }
 
 /// Octaves by which cells are smaller than patches: most of the cells in a patch's box are
@@ -25,13 +36,13 @@ constexpr int kFiner = 3;
 
 /// Narrower softening does not make cells smaller still: there would be several times as
 /// many, hardly faster to ask [m].
-constexpr double kLeastForCells_m = 0.05;
+constexpr double kLeastForCells_m = 0.02;
 
-/// Of a cell twice as large as the space around a thin patch: the many small patches share
+/// Of a cell half as large as the space around a thin patch: the many small patches share
 /// this size, for each size in use costs a query a look.
 int octaveOfReach(double softeningStd_m, double outlierRatio) {
     const double reach_m =
-        2 * std::max(softeningStd_m, kLeastForCells_m) * reachOf(outlierRatio);
+        std::max(softeningStd_m, kLeastForCells_m) * reachOf(outlierRatio);
     return std::clamp(static_cast<int>(std::ceil(std::log2(reach_m))), BoxIndex::kMinOctave,
                       BoxIndex::kMaxOctave);
 }
@@ -64,6 +75,7 @@ SurfaceLikelihood::SurfaceLikelihood(const Mixture<3>& mixture, double softening
     requireInRange("softeningStd_m", softeningStd_m, 0.0, 1e3);
     requireInRange("outlierRatio", outlierRatio, 1e-9, 1.0 - 1e-9);
     reach_ = static_cast<float>(reachOf(outlierRatio));
+    tailEnd_ = tailEndOf(outlierRatio);
     update(mixture);
 }
 
@@ -147,9 +159,11 @@ inline float SurfaceLikelihood::squaredDistance(const Patch& patch, float x, flo
     const auto along = [&](const std::array<float, 3>& axis) {
         return axis[0] * dx + axis[1] * dy + axis[2] * dz;
     };
+    // max(0, v), which would compile to jumps that are hard to predict.
+    const auto positive = [](float v) { return 0.5F * (v + std::abs(v)); };
     const float normal = along(patch.axes[0]);
-    const float beyond1 = std::max(0.F, std::abs(along(patch.axes[1])) - patch.halfEdge[0]);
-    const float beyond2 = std::max(0.F, std::abs(along(patch.axes[2])) - patch.halfEdge[1]);
+    const float beyond1 = positive(std::abs(along(patch.axes[1])) - patch.halfEdge[0]);
+    const float beyond2 = positive(std::abs(along(patch.axes[2])) - patch.halfEdge[1]);
     return normal * normal + beyond1 * beyond1 + beyond2 * beyond2;
 }
 
@@ -161,7 +175,8 @@ double SurfaceLikelihood::probability(float x, float y, float z) const {
     });
     // The reach itself, not that of the boxes: where cells begin must not matter.
     if (!(nearest <= reach_ * reach_)) return outlierRatio_;
-    return outlierRatio_ + (1.0 - outlierRatio_) * double(std::exp(-0.5F * nearest));
+    const double kernel = 1 / (1 + 0.5 * double(nearest));
+    return outlierRatio_ + (1 - outlierRatio_) * (kernel - tailEnd_) / (1 - tailEnd_);
 }
 
 double SurfaceLikelihood::operator()(float x, float y, float z) const {

@@ -11,10 +11,14 @@ namespace hgmm {
 
 /// How well a measured point agrees with the surfaces of a map, for localisation: with an
 /// outlier floor,
-///   p = outlierRatio + (1 - outlierRatio) max_j exp(-1/2 d_j^2).
-/// A component counts as a patch: the rectangle in its principal plane that has its
-/// variances there, with half edges h = sqrt(3) sigma. d_j^2 sums, over the principal axes,
-/// the squared distance to the patch over
+///   p = outlierRatio + (1 - outlierRatio) max_j k(d_j^2).
+/// k(d^2) = 1 / (1 + 1/2 d^2), lowered and scaled to be 1 at 0 and 0 from where it would
+/// add half of the outlier ratio, or from d = 20. Near 0 it is the Gaussian exp(-1/2 d^2);
+/// its tail, that of a Gaussian whose width is not known, still leads towards a surface
+/// from several widths away, where the Gaussian is flat. A component counts as a patch: the
+/// rectangle in its principal plane that has its variances there, with half edges h =
+/// sqrt(3) sigma. d_j^2 sums, over the principal axes, the squared distance to the patch
+/// over
 ///   sigma_normal^2 + softeningStd_m^2 (softeningStd_m^2 / (softeningStd_m^2 + h^2))^2
 /// with h = 0 for the normal. Where sigma is below a quarter of the largest, the patch is
 /// more and more of a line: h shrinks to 0 at an eighth, and sigma takes the place of
@@ -36,9 +40,8 @@ class SurfaceLikelihood {
     /// were, which is much cheaper than starting anew where few are. Answers are the same.
     void update(const Mixture<3>& mixture);
 
-    /// p of one point in the mixture's frame, in [outlierRatio, 1]. What adds less than a
-    /// fiftieth of the outlier ratio is left out. A point that is not finite is an outlier.
-    /// Thread-safe.
+    /// p of one point in the mixture's frame, in [outlierRatio, 1]. A point that is not
+    /// finite is an outlier. Thread-safe.
     double probability(float x, float y, float z) const;
 
     /// log p [nat].
@@ -63,7 +66,8 @@ class SurfaceLikelihood {
 
     double softeningVariance_m2_;
     double outlierRatio_;
-    float reach_;  ///< farther patches are left out [s]
+    float reach_;     ///< farther patches are left out [s]
+    double tailEnd_;  ///< of the kernel, at the reach
     std::vector<Patch> patches_;
     std::vector<Moments> moments_;  ///< what the patches were made of
     BoxIndex boxes_;
