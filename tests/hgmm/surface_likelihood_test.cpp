@@ -118,7 +118,9 @@ TEST(SurfaceLikelihood, LeadsBackFromSeveralWidthsAway) {
         EXPECT_GT(likelihood(float(-off * width), 0, 0),
                   likelihood(float(-(off + 0.5) * width), 0, 0) + 0.005)
             << off;
-    const SurfaceLikelihood unforgiving(wallAndPost(), 0.02, 1e-9);
+    Mixture<3> wall;
+    wall.pushBack(wallAndPost()[0]);
+    const SurfaceLikelihood unforgiving(wall, 0.02, 1e-9);
     EXPECT_GT(unforgiving(float(-19.9 * width), 0, 0), std::log(1e-9) + 1);
     EXPECT_EQ(unforgiving(float(-20.1 * width), 0, 0), std::log(1e-9));
     // The tail ends without a step.
