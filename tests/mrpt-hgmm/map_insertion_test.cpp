@@ -2,10 +2,12 @@
 #include <mrpt/maps/CHGMMOccupancyMap.h>
 #include <mrpt/obs/CObservationOdometry.h>
 
+#include <Eigen/Eigenvalues>
 #include <thread>
 #include <vector>
 
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
+#include "laser_room.h"
 #include "observations.h"
 #include "shared_samples.h"
 
@@ -43,6 +45,23 @@ TEST(MapInsertion, RobotAndSensorPoseCountAlikeForEveryType) {
         EXPECT_GE(split.model().mixture().size(), 2U) << name;
         expectSameComponents(split, joined, name);
     }
+}
+
+// All points of a planar laser lie in one plane: corners must not make the walls thick.
+TEST(MapInsertion, WallsOfAPlanarLaserAreThin) {
+    const CHGMMOccupancyMap map = laser_room::map();
+    const auto& mixture = map.model().mixture();
+    std::size_t pieces = 0;
+    for (std::size_t i = 0; i < mixture.size(); ++i) {
+        const Eigen::Matrix3d covariance = mixture[i].covariance;
+        const Eigen::Vector3d sigma =
+            Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance)
+                .eigenvalues()
+                .cwiseSqrt();
+        pieces += sigma[2] > 0.1;
+        EXPECT_LT(sigma[1], 0.03) << i << ", " << sigma[2] << " m long";
+    }
+    EXPECT_GE(pieces, 4U);
 }
 
 TEST(MapInsertion, NoPoseMeansTheOrigin) {

@@ -47,7 +47,8 @@ struct Content {
     }
     Eigen::Vector3d mean() const { return sum / count; }
     Eigen::Matrix3d scatter() const {
-        return sumOuter / count - mean() * mean().transpose();
+        const Eigen::Vector3d centre = mean();
+        return sumOuter / count - centre * centre.transpose();
     }
     /// Whether two of the standard deviations are at least `least`; without eigenvalues,
     /// for it is asked for every cell: the sum of the principal 2 x 2 minors is about the
@@ -72,7 +73,8 @@ Eigen::Matrix3d bridge(const Content& own, const Content& around) {
     const Eigen::Vector3d spread = plane.eigenvalues().cwiseMax(0.0).cwiseSqrt();
     if (spread[0] > kFlatness * spread[1]) return Eigen::Matrix3d::Zero();
     const Eigen::Vector3d normal = plane.eigenvectors().col(0);
-    if (std::abs(normal.dot(around.mean())) < kLeastIncidence * around.mean().norm())
+    const Eigen::Vector3d ray = around.mean();
+    if (std::abs(normal.dot(ray)) < kLeastIncidence * ray.norm())
         return Eigen::Matrix3d::Zero();
     Eigen::Matrix3d wider = Eigen::Matrix3d::Zero();
     const auto widen = [&](const Eigen::Vector3d& direction) {

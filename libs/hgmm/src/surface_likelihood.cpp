@@ -20,14 +20,14 @@ constexpr double kTailEnd = 0.5;
 /// But no farther away than so many widths: small ratios would let all patches have a say.
 constexpr double kFarthest = 20;
 
-/// 1 / (1 + 1/2 reach^2), what the kernel is lowered by to end at 0.
-double tailEndOf(double outlierRatio) {
-    return std::max(1 / (1 + (1 - outlierRatio) / (kTailEnd * outlierRatio)),
-                    1 / (1 + 0.5 * kFarthest * kFarthest));
+double reachOf(double outlierRatio) {
+    return std::min(kFarthest,
+                    std::sqrt(2 * (1 - outlierRatio) / (kTailEnd * outlierRatio)));
 }
 
-double reachOf(double outlierRatio) {
-    return std::sqrt(2 * (1 / tailEndOf(outlierRatio) - 1));
+/// A Gaussian's, near 0, with a tail.
+double kernel(float squaredDistance) {
+    return 1 / (1 + 0.5 * double(squaredDistance));
 }
 
 /// Octaves by which cells are smaller than patches: most of the cells in a patch's box are
@@ -75,7 +75,8 @@ SurfaceLikelihood::SurfaceLikelihood(const Mixture<3>& mixture, double softening
     requireInRange("softeningStd_m", softeningStd_m, 0.0, 1e3);
     requireInRange("outlierRatio", outlierRatio, 1e-9, 1.0 - 1e-9);
     reach_ = static_cast<float>(reachOf(outlierRatio));
-    tailEnd_ = tailEndOf(outlierRatio);
+    tailEnd_ = kernel(reach_ * reach_);
+    height_ = (1 - outlierRatio) / (1 - tailEnd_);
     update(mixture);
 }
 
@@ -175,8 +176,7 @@ double SurfaceLikelihood::probability(float x, float y, float z) const {
     });
     // The reach itself, not that of the boxes: where cells begin must not matter.
     if (!(nearest <= reach_ * reach_)) return outlierRatio_;
-    const double kernel = 1 / (1 + 0.5 * double(nearest));
-    return outlierRatio_ + (1 - outlierRatio_) * (kernel - tailEnd_) / (1 - tailEnd_);
+    return outlierRatio_ + height_ * (kernel(nearest) - tailEnd_);
 }
 
 double SurfaceLikelihood::operator()(float x, float y, float z) const {

@@ -68,6 +68,7 @@ class SurfaceLikelihood {
     double outlierRatio_;
     float reach_;     ///< farther patches are left out [s]
     double tailEnd_;  ///< of the kernel, at the reach
+    double height_;   ///< what the kernel is scaled by, once lowered
     std::vector<Patch> patches_;
     std::vector<Moments> moments_;  ///< what the patches were made of
     BoxIndex boxes_;
