@@ -126,6 +126,8 @@ TEST(SurfaceLikelihood, LeadsBackFromSeveralWidthsAway) {
     // The tail ends without a step.
     EXPECT_NEAR(likelihood(float(-8.7 * width), 0, 0), std::log(0.05), 0.02);
     EXPECT_EQ(likelihood(float(-8.9 * width), 0, 0), std::log(0.05));
+    for (float x = float(-8.9 * width); x < float(-8.6 * width); x += 1e-6F)
+        ASSERT_GE(likelihood(x, 0, 0), std::log(0.05)) << x;
 }
 
 // Gaussians in place of patches would fall to a fifth halfway between two of them.
