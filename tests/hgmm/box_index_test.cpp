@@ -110,10 +110,42 @@ struct Ball {
     BoxIndex::Box box() const { return {centre, {radius, radius, radius}}; }
 };
 
-void enter(BoxIndex& index, std::uint32_t i, const Ball& ball) {
-    index.update(i, ball.box(), [&](const float* cube, float halfEdge) {
+auto touchedBy(const Ball& ball) {
+    return [&ball](const float* cube, float halfEdge) {
         return ball.distanceTo(cube) <= ball.radius + 1.7321F * halfEdge;
-    });
+    };
+}
+
+// As those of a map do, whose index must become what it would be if made anew.
+TEST(BoxIndex, BodiesThatMoveALittleAreWhereTheyAre) {
+    std::mt19937_64 engine(4);
+    BoxIndex index(BoxIndex::Cells{3, -2}), anew(BoxIndex::Cells{3, -2});
+    std::vector<Ball> balls(100);
+    for (std::uint32_t i = 0; i < balls.size(); ++i) {
+        for (float& v : balls[i].centre) v = static_cast<float>(uniform(engine, -2, 2));
+        balls[i].radius = static_cast<float>(uniform(engine, 0.5, 0.9));
+        index.update(i, balls[i].box(), touchedBy(balls[i]), touchedBy(balls[i]));
+    }
+    for (int k = 0; k < 1000; ++k) {
+        const auto i = static_cast<std::uint32_t>(engine() % balls.size());
+        const Ball before = balls[i];
+        for (float& v : balls[i].centre)
+            v += static_cast<float>(uniform(engine, -.05, .05));
+        index.update(i, balls[i].box(), touchedBy(balls[i]), touchedBy(before));
+    }
+    for (std::uint32_t i = 0; i < balls.size(); ++i)
+        anew.update(i, balls[i].box(), touchedBy(balls[i]), touchedBy(balls[i]));
+    std::size_t found = 0;
+    for (int q = 0; q < 5000; ++q) {
+        Point p{};
+        for (float& v : p) v = static_cast<float>(uniform(engine, -3, 3));
+        std::vector<std::uint32_t> now = candidates(index, p), wanted = candidates(anew, p);
+        std::sort(now.begin(), now.end());
+        std::sort(wanted.begin(), wanted.end());
+        ASSERT_EQ(now, wanted);
+        found += now.size();
+    }
+    EXPECT_GT(found, 5000U);
 }
 
 TEST(BoxIndex, BodiesAreFoundInTheFinerCellsThatTheyTouchOnly) {
@@ -121,9 +153,10 @@ TEST(BoxIndex, BodiesAreFoundInTheFinerCellsThatTheyTouchOnly) {
     BoxIndex index(BoxIndex::Cells{3, -2}), ofBoxes(BoxIndex::Cells{3, -2});
     std::vector<Ball> balls(200);
     const auto place = [&](std::uint32_t i) {
+        const Ball before = balls[i];
         for (float& v : balls[i].centre) v = static_cast<float>(uniform(engine, -5, 5));
         balls[i].radius = static_cast<float>(uniform(engine, 0.01, 3));
-        enter(index, i, balls[i]);
+        index.update(i, balls[i].box(), touchedBy(balls[i]), touchedBy(before));
         ofBoxes.update(i, balls[i].box());
     };
     for (std::uint32_t i = 0; i < balls.size(); ++i) place(i);

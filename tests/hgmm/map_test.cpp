@@ -26,12 +26,14 @@ Map roomMap(int scans = 6, const MapParams& params = {}) {
 TEST(Map, ModelsTheRoom) {
     const Map map = roomMap();
     map.mixture().check();
-    // Every point counts, up to the few components that rays seem to pass.
+    // Every point counts, up to the few components that rays seem to pass or that are too
+    // thick.
     const double points = 6 * 360 * 32;
     EXPECT_NEAR(map.mixture().totalSupport(), points, 1e-3 * points);
     MapParams trusting;
     trusting.contradiction.contradictedKeep = 1.0;
     trusting.contradiction.minSupport = 0;
+    trusting.novelty.maxThickness = 1000;
     EXPECT_NEAR(roomMap(6, trusting).mixture().totalSupport(), points, 0.5);
     const RoomScanner room;
     // Points on the walls are likely, points 20 cm off them are not.

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <iostream>
 #include <random>
 
 #include "hgmm/filter.h"
@@ -104,9 +108,95 @@ TEST(Novelty, DoesNotDriftAsTheMapGrows) {
                 0.02);
 }
 
+/// Whether a component with these standard deviations along the axes, at `mean`, was too
+/// thick for a hit in its middle, seen from `sensor`.
+bool isOutgrown(const Eigen::Vector3d& deviations, const Eigen::Vector3d& mean,
+                const Eigen::Vector3d& sensor, double maxThickness = 0.29) {
+    Mixture<3> map, samples;
+    Gaussian<3> g;
+    g.support = 100;
+    g.mean = mean;
+    g.covariance = deviations.cwiseAbs2().asDiagonal();
+    map.pushBack(g);
+    g.support = 3;
+    g.covariance = 1e-4 * Eigen::Matrix3d::Identity();
+    samples.pushBack(g);
+    ComponentIndex index;
+    index.rebuild(map);
+    Views views;
+    views.pushBack(viewFrom(sensor, mean));
+    NoveltyParams params;
+    params.maxThickness = maxThickness;
+    const CellParams cells;
+    const Sighting sighting{views, sensor, cells};
+    const NoveltySplit split = splitByNovelty(samples, index, params, &sighting);
+    EXPECT_EQ(split.known.size() + split.novel.size(), 1U);
+    EXPECT_EQ(split.outgrown.size(), split.novel.size());
+    if (split.outgrown.empty()) return false;
+    EXPECT_EQ(split.outgrown[0].component, 0U);
+    EXPECT_EQ(split.outgrown[0].support, 3.F);
+    return true;
+}
+
+TEST(Novelty, ThicknessCountsAcrossTheSurfaceThatARayMeets) {
+    const Eigen::Vector3d wall(0.02, 2, 1), blob(0.3, 0.3, 0.3), ahead(4, 0, 0);
+    // Cells at 4 m have edges of 44 cm: 12.8 cm are too thick.
+    EXPECT_FALSE(isOutgrown(wall, ahead, {0, 0, 0}));
+    EXPECT_FALSE(isOutgrown(wall, ahead, {3.9, 3.9, 0.1}));  // 1.5 deg off its plane
+    EXPECT_TRUE(isOutgrown(blob, ahead, {0, 0, 0}));
+    EXPECT_FALSE(isOutgrown(blob, ahead, {0, 0, 0}, 0.7));
+    EXPECT_TRUE(isOutgrown({0.13, 2, 1}, ahead, {0, 0, 0}));
+    EXPECT_FALSE(isOutgrown({0.125, 2, 1}, ahead, {0, 0, 0}));
+    EXPECT_FALSE(isOutgrown(blob, ahead, {-50, 0, 0}));  // cells of 1.6 m
+    // A planar laser's hits are thin across its plane, which makes none of them a surface.
+    EXPECT_FALSE(isOutgrown({0.02, 2, 0.01}, ahead, {0, 0, 0}));
+    EXPECT_TRUE(isOutgrown({0.3, 0.3, 0.01}, ahead, {0, 0, 0}));
+    // The same from above is a floor.
+    EXPECT_FALSE(isOutgrown({0.3, 0.3, 0.01}, ahead, {0, 0, 1}));
+}
+
+/// Largest standard deviation within the plane z = 0 across a component's longer axis [m].
+double largestThickness(const Mixture<3>& mixture) {
+    double largest = 0;
+    for (std::size_t i = 0; i < mixture.size(); ++i) {
+        const Eigen::Matrix2d plane = mixture[i].covariance.topLeftCorner<2, 2>();
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(plane);
+        largest = std::max(largest, std::sqrt(eigen.eigenvalues()[0]));
+    }
+    return largest;
+}
+
+TEST(Novelty, ComponentsDoNotGrowOverARoom) {
+    // Legs of chairs and people: a planar laser hits something at any range.
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<float> range(1.F, 4.F);
+    MapParams params, unlimited;
+    unlimited.novelty.maxThickness = 1000;
+    Map map(params), growing(unlimited);
+    for (int k = 0; k < 150; ++k) {
+        Scan scan;
+        for (int i = 0; i < 181; ++i) {
+            const float r = range(random), a = 0.0174533F * float(i);
+            scan.pushBack(r * std::cos(a), r * std::sin(a), 0.F);
+        }
+        map.insert(scan);
+        growing.insert(scan);
+    }
+    // A component may reach the limit, and a last scan push it over. Cells at 4 m: 44 cm.
+    EXPECT_LT(largestThickness(map.mixture()), 1.5 * 0.29 * 0.44);
+    EXPECT_GT(largestThickness(growing.mixture()), 2 * largestThickness(map.mixture()));
+    std::cout << "thickest component: " << largestThickness(map.mixture()) << " m of "
+              << map.mixture().size() << "; without a limit "
+              << largestThickness(growing.mixture()) << " m of " << growing.mixture().size()
+              << "\n";
+}
+
 TEST(Novelty, ParametersOutOfRangeAreNamed) {
     NoveltyParams params;
     params.maxMahalanobis = ComponentIndex::kSigmas + 1;
+    EXPECT_THROW(params.validate(), std::invalid_argument);
+    params = {};
+    params.maxThickness = 0;
     EXPECT_THROW(params.validate(), std::invalid_argument);
 }
 

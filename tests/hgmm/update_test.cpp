@@ -92,5 +92,21 @@ TEST(Update, NothingKnownChangesNothing) {
     EXPECT_EQ(f.mixture, old);
 }
 
+TEST(Update, OutgrownComponentsGiveWay) {
+    Fixture f;
+    const Mixture<3> old = f.mixture;
+    f.split.outgrown = {{1, 2.F}, {1, 5.F}};
+    EXPECT_EQ(giveWay(f.mixture, f.split), std::vector<std::uint32_t>{1});
+    EXPECT_EQ(f.mixture.support[0], 100.F);
+    EXPECT_EQ(f.mixture.support[1], 33.F);
+    EXPECT_EQ(f.mixture.mean, old.mean);
+    EXPECT_EQ(f.mixture.covariance, old.covariance);
+    f.split.outgrown = {{0, 1.F}, {1, 50.F}};
+    EXPECT_EQ(giveWay(f.mixture, f.split), (std::vector<std::uint32_t>{0, 1}));
+    EXPECT_EQ(f.mixture.support[0], 99.F);
+    EXPECT_GT(f.mixture.support[1], 0.F) << "supports are positive";
+    EXPECT_LT(f.mixture.support[1], 1e-3F);
+}
+
 }  // namespace
 }  // namespace hgmm

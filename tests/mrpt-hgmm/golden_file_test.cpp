@@ -98,9 +98,11 @@ void expectLogDensity(const hgmm::Map& map, const std::vector<double>& answer) {
         EXPECT_NEAR(got, answer[3], 1e-4 * std::abs(answer[3]) + 1e-4);
 }
 
-/// Before there was a limit to independent points, all of them counted.
+/// Before there was a limit to independent points, all of them counted. Others that the
+/// files do not hold have their defaults.
 void forgetYoungOptions(CHGMMOccupancyMap& map) {
     map.likelihoodOptions.independentPoints = hgmm::mrpt_bridge::kMaxPoints;
+    map.insertionOptions.params.novelty.maxThickness = hgmm::NoveltyParams().maxThickness;
 }
 
 TEST(GoldenFile, MapOfVersion0LoadsAndAnswersAsEver) {

@@ -102,31 +102,30 @@ void BoxIndex::count(int octave, int boxes) {
             usedOctaves_[usedOctaveCount_++] = static_cast<std::int8_t>(o + kMinOctave);
 }
 
-bool BoxIndex::replace(std::uint32_t i, const Box& box, bool evenIfSame) {
+void BoxIndex::place(std::uint32_t i, const Placement& placement, const Box& box) {
     if (i > size()) throw std::out_of_range("BoxIndex::update: a gap before it");
     if (slots_.empty()) growTable(256);
-    const Placement placement = placementOf(box);
     for (int d = 0; d < 3; ++d) {
         low_[d] = std::min(low_[d], box.centre[d] - box.halfExtent[d]);
         high_[d] = std::max(high_[d], box.centre[d] + box.halfExtent[d]);
     }
-    if (i == size()) {
-        placements_.push_back(placement);
-    } else {
-        const Placement old = placements_[i];
-        if (old == placement && !evenIfSame) return false;
-        forEachCell(old, [&](auto... cell) { remove(keyOf(old.octave, cell...), i); });
-        count(old.octave, -1);
-        placements_[i] = placement;
-    }
+    if (i == size())
+        placements_.emplace_back();
+    else
+        count(placements_[i].octave, -1);
+    placements_[i] = placement;
     count(placement.octave, 1);
-    return true;
 }
 
 void BoxIndex::update(std::uint32_t i, const Box& box) {
-    if (!replace(i, box, false)) return;
-    const Placement& p = placements_[i];
-    forEachCell(p, [&](auto... cell) { add(keyOf(p.octave, cell...), i); });
+    const Placement p = placementOf(box);
+    const bool isNew = i >= size(), stays = !isNew && placements_[i] == p;
+    if (!isNew && !stays) {
+        const Placement& old = placements_[i];
+        forEachCell(old, [&](auto... cell) { remove(keyOf(old.octave, cell...), i); });
+    }
+    place(i, p, box);
+    if (!stays) forEachCell(p, [&](auto... cell) { add(keyOf(p.octave, cell...), i); });
 }
 
 void BoxIndex::removeSwap(std::uint32_t i) {

@@ -56,10 +56,7 @@ std::vector<LatticeCell> assignCells(const std::array<std::vector<float>, 3>& me
     std::unordered_map<LatticeCell, int, LatticeCellHash> count;
     for (std::size_t i = 0; i < means[0].size(); ++i) {
         const Eigen::Vector3d p(means[0][i], means[1][i], means[2][i]);
-        const double edge =
-            std::max(params.minCell_m,
-                     params.cellAtOneMetre_m * std::sqrt((p - sensorOrigin).norm()));
-        cells[i] = LatticeCell::at(p, octaveOf(edge));
+        cells[i] = LatticeCell::at(p, octaveOf(params.edgeAt((p - sensorOrigin).norm())));
         ++count[cells[i]];
     }
     for (int promotion = 0; promotion < kMaxPromotions; ++promotion) {

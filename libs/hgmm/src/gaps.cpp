@@ -104,9 +104,7 @@ void bridgeGaps(Mixture<3>& samples, const CellParams& params) {
     std::vector<LatticeCell> cells(samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const Eigen::Vector3d p(samples.mean[0][i], samples.mean[1][i], samples.mean[2][i]);
-        const double edge =
-            std::max(params.minCell_m, params.cellAtOneMetre_m * std::sqrt(p.norm()));
-        cells[i] = LatticeCell::at(p, octaveOf(edge));
+        cells[i] = LatticeCell::at(p, octaveOf(params.edgeAt(p.norm())));
         contents[0][cells[i]].add(p);
     }
     std::unordered_map<LatticeCell, Eigen::Matrix3d, LatticeCellHash> bridges;

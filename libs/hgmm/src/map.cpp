@@ -131,24 +131,27 @@ void Map::insertSpace(const ScanSamples& scan, const Pose& T_local_sensor,
     report.samples = scan.samples_sensor.size();
     if (scan.samples_sensor.empty()) return;
     const Mixture<3> samples = transformed(scan.samples_sensor, T_local_sensor);
+    std::vector<std::uint32_t> weakened;
     const std::vector<RayBundle> bundles =
-        insertSurfaces(samples, T_local_sensor.t, report);
+        insertSurfaces(samples, T_local_sensor.t, weakened, report);
     if (!freePerComponent())
         for (const std::uint32_t i :
              model_.freeSpace.insert(bundles, T_local_sensor.t, derived_->clearance(*this),
                                      params_.occupancy.band, params_.occupancy.freeSpace))
             derived_->updateFree(*this, i);
-    contradict(samples, T_local_sensor.t, report);
+    contradict(samples, T_local_sensor.t, weakened, report);
+    removeWeak(std::move(weakened), report);
     derived_->finish(*this);
 }
 
 std::vector<RayBundle> Map::insertSurfaces(const Mixture<3>& samples,
                                            const Eigen::Vector3d& sensorOrigin,
+                                           std::vector<std::uint32_t>& weakened,
                                            InsertReport& report) {
     Mixture<3>& surfaces = model_.surfaces;
     const ComponentIndex& index = derived_->index(*this);
-    const Sides sides{model_.views, sensorOrigin};
-    const NoveltySplit split = splitByNovelty(samples, index, params_.novelty, &sides);
+    const Sighting sighting{model_.views, sensorOrigin, params_.cells};
+    const NoveltySplit split = splitByNovelty(samples, index, params_.novelty, &sighting);
     KnownUpdate known = updateKnown(surfaces, index, samples, split);
     std::vector<RayBundle> bundles = std::move(known.shares);
     for (std::size_t k = 0; k < known.changed.size(); ++k) {
@@ -158,6 +161,11 @@ std::vector<RayBundle> Map::insertSurfaces(const Mixture<3>& samples,
             i, merged(model_.views[i], std::max(before, 1e-6),
                       viewFrom(sensorOrigin, bundles[k].mean), bundles[k].support));
     }
+    for (const std::uint32_t i : giveWay(surfaces, split)) {
+        derived_->updateSurface(*this, i);
+        weakened.push_back(i);
+    }
+    report.componentsOutgrown = weakened.size();
     const std::size_t before = surfaces.size();
     if (!split.novel.empty()) {
         const Mixture<3> novel =
@@ -196,7 +204,7 @@ void Map::addFreeOfSurface(std::uint32_t i, const RayBundle& bundle,
 }
 
 void Map::contradict(const Mixture<3>& samples, const Eigen::Vector3d& sensorOrigin,
-                     InsertReport& report) {
+                     std::vector<std::uint32_t>& weakened, InsertReport& report) {
     const ContradictionParams& params = params_.contradiction;
     if (params.contradictedKeep == 1.0) return;
     const RangeImage image(samples, sensorOrigin);
@@ -207,7 +215,6 @@ void Map::contradict(const Mixture<3>& samples, const Eigen::Vector3d& sensorOri
         low[d] = std::min<double>(low[d], *least);
         high[d] = std::max<double>(high[d], *most);
     }
-    std::vector<std::uint32_t> gone;
     for (const std::uint32_t i : derived_->grid(*this).within(low, high)) {
         Gaussian<3> g = model_.surfaces[i];
         if (!isSeenThrough(g, image, sensorOrigin)) continue;
@@ -215,11 +222,19 @@ void Map::contradict(const Mixture<3>& samples, const Eigen::Vector3d& sensorOri
         g.support *= params.contradictedKeep;
         model_.surfaces.set(i, g);
         derived_->updateSurface(*this, i);
-        if (g.support < params.minSupport) gone.push_back(i);
+        weakened.push_back(i);
     }
+}
+
+void Map::removeWeak(std::vector<std::uint32_t> weakened, InsertReport& report) {
     // From the last on, so that the one that takes a removed one's place stays.
-    for (auto i = gone.rbegin(); i != gone.rend(); ++i) removeSurface(*i);
-    report.componentsRemoved = gone.size();
+    std::sort(weakened.rbegin(), weakened.rend());
+    weakened.erase(std::unique(weakened.begin(), weakened.end()), weakened.end());
+    for (const std::uint32_t i : weakened) {
+        if (model_.surfaces.support[i] >= params_.contradiction.minSupport) continue;
+        removeSurface(i);
+        ++report.componentsRemoved;
+    }
 }
 
 void Map::removeSurface(std::uint32_t i) {

@@ -1,7 +1,7 @@
 #include "hgmm/novelty.h"
 
 #include <algorithm>
-#include <utility>
+#include <cmath>
 
 #include "hgmm/require.h"
 
@@ -13,69 +13,107 @@ namespace {
 /// threads.
 constexpr std::size_t kSamplesPerChunk = 256;
 
-/// Whether a component was seen from the side of `direction` (towards a sensor).
-bool sameSide(const ComponentIndex::Factor& factor, const Eigen::Vector3d& view,
-              const Eigen::Vector3d& direction) {
-    double product = 0;
-    for (int row = 0; row < 3; ++row) {
-        double a = 0, b = 0;
-        for (int col = 0; col <= row; ++col) {
-            a += double(factor.factor(row, col)) * view[col];
-            b += double(factor.factor(row, col)) * direction[col];
-        }
-        product += a * b;
-    }
-    return product > 0 || view.isZero();
+using Factor = ComponentIndex::Factor;
+
+/// W v: in standard deviations of the component.
+Eigen::Vector3d whitened(const Factor& factor, const Eigen::Vector3d& v) {
+    Eigen::Vector3d w = Eigen::Vector3d::Zero();
+    for (int row = 0; row < 3; ++row)
+        for (int col = 0; col <= row; ++col)
+            w[row] += double(factor.factor(row, col)) * v[col];
+    return w;
 }
 
-void findNeighbours(const Mixture<3>& samples, std::size_t begin, std::size_t end,
-                    const ComponentIndex& index, float maxSquared, const Sides* sides,
-                    Neighbourhoods& found) {
-    for (std::size_t i = begin; i < end; ++i) {
-        const float point[3] = {samples.mean[0][i], samples.mean[1][i], samples.mean[2][i]};
-        const std::size_t first = found.component.size();
-        Eigen::Vector3d towardsSensor = Eigen::Vector3d::Zero();
-        if (sides != nullptr)
-            towardsSensor =
-                sides->sensorOrigin - Eigen::Vector3d(point[0], point[1], point[2]);
-        index.visitCandidates(point[0], point[1], point[2], [&](std::uint32_t j) {
-            const ComponentIndex::Factor& factor = index.factor(j);
-            if (!factor.isWithin(point, maxSquared)) return;
-            if (sides != nullptr &&
-                !sameSide(factor, sides->views[j].direction, towardsSensor))
-                return;
-            found.component.push_back(j);
-        });
-        std::sort(found.component.begin() + static_cast<std::ptrdiff_t>(first),
-                  found.component.end());
-        found.begin.push_back(static_cast<std::uint32_t>(found.component.size()));
-    }
+/// W^T w.
+Eigen::Vector3d transposed(const Factor& factor, const Eigen::Vector3d& w) {
+    Eigen::Vector3d v = Eigen::Vector3d::Zero();
+    for (int row = 0; row < 3; ++row)
+        for (int col = 0; col <= row; ++col)
+            v[col] += double(factor.factor(row, col)) * w[row];
+    return v;
 }
+
+struct Found {
+    Neighbourhoods neighbourhoods;
+    std::vector<NoveltySplit::Outgrown> outgrown;
+};
+
+/// What explains one sample after the other.
+class Explanation {
+ public:
+    Explanation(const Mixture<3>& samples, const ComponentIndex& index,
+                const NoveltyParams& params, const Sighting* sighting)
+        : samples_(samples),
+          index_(index),
+          params_(params),
+          sighting_(sighting),
+          maxSquared_(static_cast<float>(params.maxMahalanobis * params.maxMahalanobis)) {}
+
+    void find(std::size_t i, Found& found) const {
+        const float point[3] = {samples_.mean[0][i], samples_.mean[1][i],
+                                samples_.mean[2][i]};
+        Eigen::Vector3d towardsSensor = Eigen::Vector3d::Zero();
+        double maxVariance = 0;
+        if (sighting_ != nullptr) {
+            towardsSensor =
+                sighting_->sensorOrigin - Eigen::Vector3d(point[0], point[1], point[2]);
+            maxVariance = std::pow(
+                params_.maxThickness * sighting_->cells.edgeAt(towardsSensor.norm()), 2);
+        }
+        auto& components = found.neighbourhoods.component;
+        const auto first = static_cast<std::ptrdiff_t>(components.size());
+        index_.visitCandidates(point[0], point[1], point[2], [&](std::uint32_t j) {
+            const Factor& factor = index_.factor(j);
+            if (!factor.isWithin(point, maxSquared_)) return;
+            if (sighting_ != nullptr) {
+                // Sigma^-1 u is normal to the surface that the ray meets.
+                const Eigen::Vector3d ray = whitened(factor, towardsSensor);
+                const Eigen::Vector3d normal = transposed(factor, ray);
+                const Eigen::Vector3d& view = sighting_->views[j].direction;
+                if (normal.dot(view) <= 0 && !view.isZero()) return;
+                if (ray.squaredNorm() > maxVariance * normal.squaredNorm()) {
+                    found.outgrown.push_back({j, samples_.support[i]});
+                    return;
+                }
+            }
+            components.push_back(j);
+        });
+        std::sort(components.begin() + first, components.end());
+        found.neighbourhoods.begin.push_back(static_cast<std::uint32_t>(components.size()));
+    }
+
+ private:
+    const Mixture<3>& samples_;
+    const ComponentIndex& index_;
+    const NoveltyParams& params_;
+    const Sighting* sighting_;
+    float maxSquared_;
+};
 
 }  // namespace
 
 void NoveltyParams::validate() const {
     requireInRange("maxMahalanobis", maxMahalanobis, 0.1, ComponentIndex::kSigmas);
+    requireInRange("maxThickness", maxThickness, 1e-3, 1000.0);
 }
 
 NoveltySplit splitByNovelty(const Mixture<3>& samples, const ComponentIndex& index,
-                            const NoveltyParams& params, const Sides* sides) {
-    const auto maxSquared =
-        static_cast<float>(params.maxMahalanobis * params.maxMahalanobis);
+                            const NoveltyParams& params, const Sighting* sighting) {
+    const Explanation explanation(samples, index, params, sighting);
     const std::size_t chunks = (samples.size() + kSamplesPerChunk - 1) / kSamplesPerChunk;
-    std::vector<Neighbourhoods> found(chunks);
+    std::vector<Found> found(chunks);
 #pragma omp parallel for schedule(dynamic)
     for (std::size_t c = 0; c < chunks; ++c) {
-        found[c].begin.push_back(0);
-        findNeighbours(samples, c * kSamplesPerChunk,
-                       std::min(samples.size(), (c + 1) * kSamplesPerChunk), index,
-                       maxSquared, sides, found[c]);
+        found[c].neighbourhoods.begin.push_back(0);
+        const std::size_t end = std::min(samples.size(), (c + 1) * kSamplesPerChunk);
+        for (std::size_t i = c * kSamplesPerChunk; i < end; ++i)
+            explanation.find(i, found[c]);
     }
 
     NoveltySplit split;
     split.neighbourhoods.begin.push_back(0);
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        const Neighbourhoods& n = found[i / kSamplesPerChunk];
+        const Neighbourhoods& n = found[i / kSamplesPerChunk].neighbourhoods;
         const std::uint32_t first = n.begin[i % kSamplesPerChunk],
                             last = n.begin[i % kSamplesPerChunk + 1];
         if (first == last) {
@@ -87,6 +125,8 @@ NoveltySplit splitByNovelty(const Mixture<3>& samples, const ComponentIndex& ind
         all.insert(all.end(), n.component.begin() + first, n.component.begin() + last);
         split.neighbourhoods.begin.push_back(static_cast<std::uint32_t>(all.size()));
     }
+    for (const Found& f : found)
+        split.outgrown.insert(split.outgrown.end(), f.outgrown.begin(), f.outgrown.end());
     return split;
 }
 

@@ -131,11 +131,14 @@ void SurfaceLikelihood::enter(const Mixture<3>& mixture, std::uint32_t i) {
         patches_.emplace_back();
         moments_.emplace_back();
     }
+    const auto touchedBy = [this](const Patch& p) {
+        return [this, &p](const float* centre, float halfEdge) {
+            return touches(p, centre, halfEdge);
+        };
+    };
+    boxes_.update(i, box, touchedBy(patch), touchedBy(patches_[i]));
     patches_[i] = patch;
     moments_[i] = momentsOf(mixture, i);
-    boxes_.update(i, box, [&](const float* centre, float halfEdge) {
-        return touches(patch, centre, halfEdge);
-    });
 }
 
 bool SurfaceLikelihood::touches(const Patch& patch, const float* centre,

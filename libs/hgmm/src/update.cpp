@@ -107,4 +107,16 @@ KnownUpdate updateKnown(Mixture<3>& mixture, const ComponentIndex& index,
     return result;
 }
 
+std::vector<std::uint32_t> giveWay(Mixture<3>& mixture, const NoveltySplit& split) {
+    std::vector<std::uint32_t> changed;
+    for (const NoveltySplit::Outgrown& o : split.outgrown) {
+        float& support = mixture.support[o.component];
+        support = std::max(support - o.support, 1e-6F);
+        changed.push_back(o.component);
+    }
+    std::sort(changed.begin(), changed.end());
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    return changed;
+}
+
 }  // namespace hgmm

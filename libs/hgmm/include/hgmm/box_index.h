@@ -42,8 +42,10 @@ class BoxIndex {
     /// The same for a body inside its box: enters it in the cells that it touches.
     /// @param touches touches(centre, halfEdge) tells it of a cube, const float* and float
     /// [m]; it may err for cubes that are only nearly touched
-    template <typename Touches>
-    void update(std::uint32_t i, const Box& box, Touches&& touches);
+    /// @param touched what `touches` said of the body that box i held before; nobody asks
+    /// where i is the next one
+    template <typename Touches, typename Touched>
+    void update(std::uint32_t i, const Box& box, Touches&& touches, Touched&& touched);
     /// Box i goes; the last one takes its number.
     void removeSwap(std::uint32_t i);
     void clear();
@@ -111,13 +113,22 @@ class BoxIndex {
     }
     static float perCell(int octave) { return floatPowerOfTwo(-octave); }
 
+    /// What a test of bodies says of a cell.
+    template <typename Test>
+    static bool holds(Test&& test, int octave, std::int32_t x, std::int32_t y,
+                      std::int32_t z) {
+        const float edge = floatPowerOfTwo(octave);
+        const float centre[3] = {(float(x) + 0.5F) * edge, (float(y) + 0.5F) * edge,
+                                 (float(z) + 0.5F) * edge};
+        return test(centre, 0.5F * edge);
+    }
     Placement placementOf(const Box& box) const;
+    /// Notes where box i is from now on; its cells are left as they are.
+    void place(std::uint32_t i, const Placement& placement, const Box& box);
     template <typename Visitor>
     static void forEachCell(const Placement& p, Visitor&& visit);
     /// Counts a box in or out.
     void count(int octave, int boxes);
-    /// The old placement, if there was one, is left; false if nothing needs to be entered.
-    bool replace(std::uint32_t i, const Box& box, bool evenIfSame);
     const Slot* find(std::uint64_t key) const;
     Slot& findOrAdd(std::uint64_t key);
     void growTable(std::size_t slots);
@@ -155,15 +166,24 @@ void BoxIndex::forEachCell(const Placement& p, Visitor&& visit) {
             for (std::int32_t z = p.low[2]; z <= p.high[2]; ++z) visit(x, y, z);
 }
 
-template <typename Touches>
-void BoxIndex::update(std::uint32_t i, const Box& box, Touches&& touches) {
-    replace(i, box, true);
-    const Placement& p = placements_[i];
-    const float edge = floatPowerOfTwo(p.octave);
-    forEachCell(p, [&](std::int32_t x, std::int32_t y, std::int32_t z) {
-        const float centre[3] = {(float(x) + 0.5F) * edge, (float(y) + 0.5F) * edge,
-                                 (float(z) + 0.5F) * edge};
-        if (touches(centre, 0.5F * edge)) add(keyOf(p.octave, x, y, z), i);
+template <typename Touches, typename Touched>
+void BoxIndex::update(std::uint32_t i, const Box& box, Touches&& touches,
+                      Touched&& touched) {
+    const Placement p = placementOf(box);
+    const bool isNew = i >= size(), stays = !isNew && placements_[i] == p;
+    if (!isNew && !stays) {
+        const Placement& old = placements_[i];
+        forEachCell(old, [&](auto... cell) {
+            if (holds(touched, old.octave, cell...)) remove(keyOf(old.octave, cell...), i);
+        });
+    }
+    place(i, p, box);
+    // Most cells of a body that moved a little are those that it touched before.
+    forEachCell(p, [&](auto... cell) {
+        const bool was = stays && holds(touched, p.octave, cell...);
+        const bool is = holds(touches, p.octave, cell...);
+        if (was && !is) remove(keyOf(p.octave, cell...), i);
+        if (is && !was) add(keyOf(p.octave, cell...), i);
     });
 }
 

@@ -1,5 +1,7 @@
 #pragma once
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "hgmm/em.h"
@@ -15,6 +17,11 @@ struct CellParams {
     double cellAtOneMetre_m = 0.22;
     double minCell_m = 0.04;  ///< smallest cell edge [m], > 0
     int minSamples = 5;  ///< a cell with fewer joins a cell twice its size [count], >= 1
+
+    /// Cell edge at a range [m]; the lattice rounds it down to an octave.
+    double edgeAt(double range_m) const {
+        return std::max(minCell_m, cellAtOneMetre_m * std::sqrt(range_m));
+    }
 
     /// Throws std::invalid_argument naming the field.
     void validate() const;

@@ -29,7 +29,8 @@ struct InsertReport {
     std::size_t componentsUpdated = 0;       ///< that absorbed known samples
     std::size_t componentsAdded = 0;         ///< for novel samples
     std::size_t componentsContradicted = 0;  ///< that the scan saw through
-    std::size_t componentsRemoved = 0;       ///< of them, for want of support
+    std::size_t componentsOutgrown = 0;      ///< too thick for what the scan saw there
+    std::size_t componentsRemoved = 0;       ///< of both, for want of support
 };
 
 /// How Map::save writes components.
@@ -64,11 +65,11 @@ class Map {
     /// For scans inserted from now on. Throws like the constructor.
     void setParams(const MapParams& params);
 
-    /// filter -> novelty split -> { known: update | novel: EM, hierarchy, append }, then
-    /// free space, then contradictions by rays that pass through surfaces; modalities,
-    /// which are models of their own, at the same time. Throws std::invalid_argument for a
-    /// malformed scan (Scan::validate), leaving the map as it was; a scan without usable
-    /// points changes nothing.
+    /// filter -> novelty split -> { known: update | novel: EM, hierarchy, append |
+    /// outgrown: give way }, then free space, then contradictions by rays that pass through
+    /// surfaces; modalities, which are models of their own, at the same time. Throws
+    /// std::invalid_argument for a malformed scan (Scan::validate), leaving the map as it
+    /// was; a scan without usable points changes nothing.
     InsertReport insert(const Scan& scan);
     /// The same for a scan whose samples are at hand, samplesOf(scan, params()): many maps
     /// can share them. Modalities learn nothing. Throws std::invalid_argument for a pose
@@ -195,12 +196,17 @@ class Map {
     Eigen::Vector3d originWith(const Pose& T_map_sensor) const;
     void insertSpace(const ScanSamples& scan, const Pose& T_local_sensor,
                      InsertReport& report);
-    /// Returns what the scan gave to each component that it changed or added.
+    /// Returns what the scan gave to each component that it changed or added. Those that
+    /// lost support join `weakened`.
     std::vector<RayBundle> insertSurfaces(const Mixture<3>& samples,
                                           const Eigen::Vector3d& sensorOrigin,
+                                          std::vector<std::uint32_t>& weakened,
                                           InsertReport& report);
+    /// Likewise.
     void contradict(const Mixture<3>& samples, const Eigen::Vector3d& sensorOrigin,
-                    InsertReport& report);
+                    std::vector<std::uint32_t>& weakened, InsertReport& report);
+    /// Removes those of them that are left with too little support.
+    void removeWeak(std::vector<std::uint32_t> weakened, InsertReport& report);
     void removeSurface(std::uint32_t i);
     /// Joins a component of another map, in this local frame, to the most similar of the
     /// first `candidates`, or adds it. Returns which it became.

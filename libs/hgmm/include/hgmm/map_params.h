@@ -43,6 +43,7 @@ void forEachField(Params& params, Visitor&& visit) {
     visit("noiseStd_m", params.filter.noiseStd_m);
     visit("noisePerRange", params.filter.noisePerRange);
     visit("maxMahalanobis", params.novelty.maxMahalanobis);
+    visit("maxThickness", params.novelty.maxThickness);
     visit("cellAtOneMetre_m", params.cells.cellAtOneMetre_m);
     visit("minCell_m", params.cells.minCell_m);
     visit("minSamples", params.cells.minSamples);

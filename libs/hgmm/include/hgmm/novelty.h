@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "hgmm/cells.h"
 #include "hgmm/component_index.h"
 #include "hgmm/em.h"
 #include "hgmm/mixture.h"
@@ -15,8 +16,16 @@ namespace hgmm {
 /// The thesis thresholds the log-likelihood of the weighted mixture at lambda_n = -10.5;
 /// weights shrink as a map grows, so that threshold drifts. Here it is local: a sample is
 /// known if it lies within `maxMahalanobis` of one component, whatever else the map holds.
+///
+/// What lies within some sigmas of a wide component would make it wider still, scan after
+/// scan. In the thesis the low density of wide components prevents that; here a component
+/// explains only samples at which it is thin beside the cells of a first guess.
 struct NoveltyParams {
     double maxMahalanobis = 3.0;  ///< [sigma], in (0, 4]
+    /// Standard deviation across the surface that a ray meets [cell edges at the ray's
+    /// range, CellParams::edgeAt], in [0.001, 1000]. The default, 1 / sqrt(12), is that of
+    /// hits all over a cell.
+    double maxThickness = 0.29;
 
     /// Throws std::invalid_argument naming the field.
     void validate() const;
@@ -25,23 +34,38 @@ struct NoveltyParams {
 struct NoveltySplit {
     std::vector<std::uint32_t> novel;  ///< sample indices, rising
     std::vector<std::uint32_t> known;  ///< sample indices, rising
-    Neighbourhoods neighbourhoods;     ///< of known[i]: components within maxMahalanobis
+    Neighbourhoods neighbourhoods;     ///< of known[i]: components that explain it
+
+    /// A component that is too thick for a sample within maxMahalanobis of it.
+    struct Outgrown {
+        std::uint32_t component;
+        float support;  ///< of the sample
+    };
+    std::vector<Outgrown> outgrown;  ///< samples rising
 };
 
-/// Who saw what, for telling the two sides of a thin object apart.
-struct Sides {
+/// From where samples were seen, and who saw what the map holds.
+struct Sighting {
     const Views& views;            ///< of the indexed components
     Eigen::Vector3d sensorOrigin;  ///< of the samples, in their frame
+    const CellParams& cells;       ///< of the samples' first guess
 };
 
 /// Cost is linear in the samples and does not depend on the size of the map.
 ///
-/// With `sides`, a component explains only samples seen from its own side:
-/// u^T Sigma^-1 v > 0 for their directions u, v towards the sensors, which for a flat
-/// component compares the signs of its normal with both. So a wall seen from both sides
-/// gets components for each, whose views do not cancel.
+/// With a `sighting`, a component explains only samples
+/// - seen from its own side: u^T Sigma^-1 v > 0 for their directions u, v towards the
+///   sensors, which for a flat component compares the signs of its normal with both. So a
+///   wall seen from both sides gets components for each, whose views do not cancel;
+/// - at which it is thin (`maxThickness`). A ray along u meets a component as a surface
+/// with
+///   the normal Sigma^-1 u, across which its variance is
+///   u^T Sigma^-1 u / |Sigma^-1 u|^2: the smallest one for a plane, however slanted, and
+///   for a blob of a planar laser's hits, which is flat in the rays' plane, one in this
+///   plane.
 NoveltySplit splitByNovelty(const Mixture<3>& samples, const ComponentIndex& index,
-                            const NoveltyParams& params, const Sides* sides = nullptr);
+                            const NoveltyParams& params,
+                            const Sighting* sighting = nullptr);
 
 /// The rows of a mixture named by `indices`.
 Mixture<3> selected(const Mixture<3>& mixture, const std::vector<std::uint32_t>& indices);

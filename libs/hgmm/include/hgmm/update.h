@@ -21,4 +21,9 @@ struct KnownUpdate {
 KnownUpdate updateKnown(Mixture<3>& mixture, const ComponentIndex& index,
                         const Mixture<3>& samples, const NoveltySplit& split);
 
+/// Outgrown components give way to those that learn in their place: each loses the support
+/// of the samples that it is too thick for, but keeps a millionth of a hit. Returns those
+/// that lost, rising.
+std::vector<std::uint32_t> giveWay(Mixture<3>& mixture, const NoveltySplit& split);
+
 }  // namespace hgmm
