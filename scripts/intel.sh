@@ -21,9 +21,7 @@ mkdir -p "$out"
 hgmm-import rawlog "$log" --aperture 179 --actions --turn-error 5 \
     -o "$out/intel.rawlog" --poses-out "$out/odometry.tum"
 rbpfConfigs "$out"
-# Rays of this laser are a degree apart, half as dense as those that the configuration is for.
-sed -i "s|^rawlog_file .*|rawlog_file = $out/intel.rawlog|; s/^powFactor .*/powFactor = 0.03/" \
-    "$out/hgmm.ini" "$out/grid.ini"
+sed -i "s|^rawlog_file .*|rawlog_file = $out/intel.rawlog|" "$out/hgmm.ini" "$out/grid.ini"
 
 run() { # MAP SEED
     runRbpf "$1" "$2" || return 0
