@@ -191,6 +191,50 @@ TEST(Novelty, ComponentsDoNotGrowOverARoom) {
               << "\n";
 }
 
+/// Hits all over a ball of half a metre around (0, 0, 0).
+Scan bushFrom(const Eigen::Vector3d& sensor, unsigned seed) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> within(-0.5, 0.5);
+    Scan scan;
+    scan.T_map_sensor.t = sensor;
+    while (scan.size() < 1500) {
+        const Eigen::Vector3d hit(within(random), within(random), within(random));
+        if (hit.norm() > 0.5) continue;
+        const Eigen::Vector3f p = (hit - sensor).cast<float>();
+        scan.pushBack(p.x(), p.y(), p.z());
+    }
+    return scan;
+}
+
+/// Largest standard deviation of a component along its shortest axis [m].
+double largestSmallestAxis(const Mixture<3>& mixture) {
+    double largest = 0;
+    for (std::size_t i = 0; i < mixture.size(); ++i) {
+        const Eigen::Matrix3d covariance = mixture[i].covariance;
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
+        largest = std::max(largest, std::sqrt(eigen.eigenvalues()[0]));
+    }
+    return largest;
+}
+
+TEST(Novelty, WhatIsCoarseFromAfarIsReplacedFromNear) {
+    MapParams params;
+    params.contradiction.contradictedKeep = 1.0;  // nothing else removes components
+    Map map(params);
+    map.insert(bushFrom({-20, 0, 0}, 1));
+    const double limit_m = params.novelty.maxThickness * params.cells.edgeAt(2.5);
+    ASSERT_GT(largestSmallestAxis(map.mixture()), limit_m);
+    std::size_t outgrown = 0, removed = 0;
+    for (unsigned k = 0; k < 4; ++k) {
+        const InsertReport report = map.insert(bushFrom({-2, 0, 0}, 2 + k));
+        outgrown += report.componentsOutgrown;
+        removed += report.componentsRemoved;
+    }
+    EXPECT_GT(outgrown, 0U);
+    EXPECT_GT(removed, 0U);
+    EXPECT_LT(largestSmallestAxis(map.mixture()), limit_m);
+}
+
 TEST(Novelty, ParametersOutOfRangeAreNamed) {
     NoveltyParams params;
     params.maxMahalanobis = ComponentIndex::kSigmas + 1;
