@@ -26,10 +26,17 @@ function(hgmm_target TARGET)
 endfunction()
 
 # Precompiles the headers of others that most files of a target include: half of its build time.
+# hgmm_precompile(TARGET <header> ...)
+# hgmm_precompile(TARGET REUSE_FROM other)    those of a target that is compiled alike
 function(hgmm_precompile TARGET)
+    cmake_parse_arguments(ARG "" "REUSE_FROM" "" ${ARGN})
+    if(ARG_REUSE_FROM)
+        target_precompile_headers(${TARGET} REUSE_FROM ${ARG_REUSE_FROM})
+        return()
+    endif()
     target_precompile_headers(${TARGET} PRIVATE
         <Eigen/Dense> <algorithm> <cmath> <functional> <memory> <string> <unordered_map> <vector>
-        ${ARGN})
+        ${ARG_UNPARSED_ARGUMENTS})
 endfunction()
 
 # Headers of a library: from its folder when built here, from the prefix when installed.
@@ -43,9 +50,10 @@ function(hgmm_library_includes TARGET)
 endfunction()
 
 # A GoogleTest program, each of its cases a ctest case.
-# hgmm_test(NAME SOURCES a.cpp ... LIBRARIES lib ... [LABELS ...] [PRECOMPILE <header> ...])
+# hgmm_test(NAME SOURCES a.cpp ... LIBRARIES lib ... [LABELS ...]
+#     [PRECOMPILE <header> ... | REUSE_PRECOMPILED other_test])
 function(hgmm_test NAME)
-    cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS;PRECOMPILE" ${ARGN})
+    cmake_parse_arguments(ARG "" "REUSE_PRECOMPILED" "SOURCES;LIBRARIES;LABELS;PRECOMPILE" ${ARGN})
     add_executable(${NAME} ${ARG_SOURCES})
     # What tests call is what must be defined; checks in the tests themselves, most of whose
     # code is GoogleTest's and Eigen's, would double the time that they take to compile.
@@ -57,7 +65,11 @@ function(hgmm_test NAME)
         # std::regex trips a false alarm of GCC 12 under the sanitizers (GCC bug 105562).
         target_compile_options(${NAME} PRIVATE -Wno-maybe-uninitialized)
     endif()
-    hgmm_precompile(${NAME} <gtest/gtest.h> <filesystem> <fstream> <sstream> ${ARG_PRECOMPILE})
+    if(ARG_REUSE_PRECOMPILED)
+        hgmm_precompile(${NAME} REUSE_FROM ${ARG_REUSE_PRECOMPILED})
+    else()
+        hgmm_precompile(${NAME} <gtest/gtest.h> <filesystem> <fstream> <sstream> ${ARG_PRECOMPILE})
+    endif()
     set_target_properties(${NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
     gtest_discover_tests(${NAME} DISCOVERY_MODE PRE_TEST
         PROPERTIES LABELS "${ARG_LABELS}" SKIP_REGULAR_EXPRESSION "SKIPPED")

@@ -7,8 +7,12 @@
 #include <limits>
 #include <random>
 
+#include "planted_mixture.h"
+
 namespace hgmm {
 namespace {
+
+using test::uniform;
 
 constexpr double kSigmas = 2.4;
 
@@ -43,10 +47,6 @@ struct Patch {
         return sum;
     }
 };
-
-double uniform(std::mt19937_64& random, double low, double high) {
-    return low + (high - low) * double(random() >> 11U) * 0x1.0p-53;
-}
 
 /// Patches in a cube of 8 m, from thin walls to near-round clutter. Upright ones have one
 /// tangent along z and stand on the floor's outline of a 2D map.
