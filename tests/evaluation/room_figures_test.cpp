@@ -14,7 +14,8 @@ namespace {
 const Box kRoom{{-3, -2, 0}, {5, 4, 2.5}};
 
 /// Exact rays from one place to all walls.
-std::vector<Ray> raysToWalls(std::size_t n, const Eigen::Vector3d& origin = {0.5, 0.5, 1.2}) {
+std::vector<Ray> raysToWalls(std::size_t n,
+                             const Eigen::Vector3d& origin = {0.5, 0.5, 1.2}) {
     std::vector<Ray> rays;
     for (std::size_t i = 0; i < n; ++i) {
         const double z = 1.0 - 2.0 * (double(i) + 0.5) / double(n);

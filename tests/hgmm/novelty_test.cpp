@@ -111,7 +111,9 @@ TEST(Novelty, DoesNotDriftAsTheMapGrows) {
 /// Whether a component with these standard deviations along the axes, at `mean`, was too
 /// thick for a hit in its middle, seen from `sensor`.
 bool isOutgrown(const Eigen::Vector3d& deviations, const Eigen::Vector3d& mean,
-                const Eigen::Vector3d& sensor, double maxThickness = 0.29) {
+                const Eigen::Vector3d& sensor, double maxThickness = 0.29,
+                const Eigen::Vector3d& normalOfRays = {0, 0, 0},
+                double noisePerRange = 0.001) {
     Mixture<3> map, samples;
     Gaussian<3> g;
     g.support = 100;
@@ -128,13 +130,15 @@ bool isOutgrown(const Eigen::Vector3d& deviations, const Eigen::Vector3d& mean,
     NoveltyParams params;
     params.maxThickness = maxThickness;
     const CellParams cells;
-    const Sighting sighting{views, sensor, cells};
+    FilterParams filter;
+    filter.noisePerRange = noisePerRange;
+    const Sighting sighting{views, sensor, cells, filter, normalOfRays};
     const NoveltySplit split = splitByNovelty(samples, index, params, &sighting);
     EXPECT_EQ(split.known.size() + split.novel.size(), 1U);
     EXPECT_EQ(split.outgrown.size(), split.novel.size());
     if (split.outgrown.empty()) return false;
     EXPECT_EQ(split.outgrown[0].component, 0U);
-    EXPECT_EQ(split.outgrown[0].support, 3.F);
+    EXPECT_EQ(split.outgrown[0].sample, 0U);
     return true;
 }
 
@@ -153,6 +157,49 @@ TEST(Novelty, ThicknessCountsAcrossTheSurfaceThatARayMeets) {
     EXPECT_TRUE(isOutgrown({0.3, 0.3, 0.01}, ahead, {0, 0, 0}));
     // The same from above is a floor.
     EXPECT_FALSE(isOutgrown({0.3, 0.3, 0.01}, ahead, {0, 0, 1}));
+    // Not so if all rays lie in a plane: it is tilted by less than it takes to see a floor.
+    const Eigen::Vector3d sensor(0, 0, 0.02);  // 0.3 deg
+    EXPECT_FALSE(isOutgrown({0.3, 0.3, 0.01}, ahead, sensor));
+    const Eigen::Vector3d normal = Eigen::Vector3d(0.02, 0, 4).normalized();
+    EXPECT_TRUE(isOutgrown({0.3, 0.3, 0.01}, ahead, sensor, 0.29, normal));
+    EXPECT_FALSE(isOutgrown({0.02, 2, 0.01}, ahead, sensor, 0.29, normal));
+    // Noise of 20 cm at 4 m is no thickness.
+    EXPECT_FALSE(isOutgrown({0.2, 2, 1}, ahead, {0, 0, 0}, 0.29, {0, 0, 0}, 0.05));
+    EXPECT_TRUE(isOutgrown({0.25, 2, 1}, ahead, {0, 0, 0}, 0.29, {0, 0, 0}, 0.05));
+}
+
+TEST(Novelty, RaysOfPlanarLasersHaveANormal) {
+    const Eigen::Vector3d origin(3, -2, 1),
+        normal = Eigen::Vector3d(0.1, -0.2, 1).normalized();
+    const Eigen::Vector3d x = normal.unitOrthogonal(), y = normal.cross(x);
+    std::mt19937_64 random(4);
+    std::uniform_real_distribution<double> range(0.1, 30.0), slope(-1.0, 1.0);
+    // Rays over `aperture` [rad], up to `steepest` off the plane.
+    const auto found = [&](double aperture, double steepest) {
+        Mixture<3> samples;
+        for (int i = 0; i < 500; ++i) {
+            const double a = aperture * i / 499.0;
+            Gaussian<3> g;
+            g.support = 1;
+            g.mean = origin + range(random) * (std::cos(a) * x + std::sin(a) * y +
+                                               steepest * slope(random) * normal);
+            g.covariance = 1e-4 * Eigen::Matrix3d::Identity();
+            samples.pushBack(g);
+        }
+        return normalOfRays(samples, origin);
+    };
+    EXPECT_GT(std::abs(found(3.14, 0.0).dot(normal)), 1 - 1e-9);
+    EXPECT_GT(std::abs(found(1.0, 0.005).dot(normal)), 1 - 1e-4);
+    EXPECT_EQ(found(3.14, 0.1), Eigen::Vector3d::Zero().eval()) << "a lidar of some rows";
+    EXPECT_EQ(found(0.1, 0.0), Eigen::Vector3d::Zero().eval()) << "any plane along them";
+    EXPECT_EQ(normalOfRays({}, origin), Eigen::Vector3d::Zero().eval());
+    Mixture<3> atSensor;
+    Gaussian<3> g;
+    g.support = 1;
+    g.mean = origin;
+    g.covariance.setIdentity();
+    atSensor.pushBack(g);
+    EXPECT_EQ(normalOfRays(atSensor, origin), Eigen::Vector3d::Zero().eval());
 }
 
 /// Largest standard deviation within the plane z = 0 across a component's longer axis [m].
@@ -167,9 +214,11 @@ double largestThickness(const Mixture<3>& mixture) {
 }
 
 TEST(Novelty, ComponentsDoNotGrowOverARoom) {
-    // Legs of chairs and people: a planar laser hits something at any range.
+    // Legs of chairs and people: a planar laser hits something at any range. The robot
+    // sways.
     std::mt19937_64 random(11);
     std::uniform_real_distribution<float> range(1.F, 4.F);
+    std::uniform_real_distribution<double> tilt(-0.0035, 0.0035);  // 0.2 deg
     MapParams params, unlimited;
     unlimited.novelty.maxThickness = 1000;
     Map map(params), growing(unlimited);
@@ -179,6 +228,9 @@ TEST(Novelty, ComponentsDoNotGrowOverARoom) {
             const float r = range(random), a = 0.0174533F * float(i);
             scan.pushBack(r * std::cos(a), r * std::sin(a), 0.F);
         }
+        const Eigen::AngleAxisd pitch(tilt(random), Eigen::Vector3d::UnitY()),
+            roll(tilt(random), Eigen::Vector3d::UnitX());
+        scan.T_map_sensor.R = (pitch * roll).toRotationMatrix();
         map.insert(scan);
         growing.insert(scan);
     }
@@ -225,7 +277,7 @@ TEST(Novelty, WhatIsCoarseFromAfarIsReplacedFromNear) {
     const double limit_m = params.novelty.maxThickness * params.cells.edgeAt(2.5);
     ASSERT_GT(largestSmallestAxis(map.mixture()), limit_m);
     std::size_t outgrown = 0, removed = 0;
-    for (unsigned k = 0; k < 4; ++k) {
+    for (unsigned k = 0; k < 8; ++k) {
         const InsertReport report = map.insert(bushFrom({-2, 0, 0}, 2 + k));
         outgrown += report.componentsOutgrown;
         removed += report.componentsRemoved;
@@ -233,6 +285,38 @@ TEST(Novelty, WhatIsCoarseFromAfarIsReplacedFromNear) {
     EXPECT_GT(outgrown, 0U);
     EXPECT_GT(removed, 0U);
     EXPECT_LT(largestSmallestAxis(map.mixture()), limit_m);
+}
+
+TEST(Novelty, WhatOthersExplainDoesNotWearACoarseNeighbourDown) {
+    // A known wall, and a bush before it seen from afar, whose components reach the wall at
+    // 2 to 3 sigma: seeing the wall alone from near takes next to nothing from the bush.
+    MapParams params;
+    params.contradiction.contradictedKeep = 1.0;
+    Map map(params);
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<float> across(-0.6F, 0.6F);
+    const auto insertWall = [&](int scans) {
+        for (int k = 0; k < scans; ++k) {
+            Scan wall;
+            wall.T_map_sensor.t = {-2, 0, 0};
+            for (int i = 0; i < 1500; ++i)
+                wall.pushBack(2.6F, across(random), across(random));
+            map.insert(wall);
+        }
+    };
+    const auto supportOfBush = [&] {
+        double sum = 0;
+        for (std::size_t i = 0; i < map.mixture().size(); ++i)
+            if (map.origin().x() + map.mixture().mean[0][i] < 0.4)
+                sum += map.mixture().support[i];
+        return sum;
+    };
+    insertWall(3);
+    map.insert(bushFrom({-20, 0, 0}, 1));
+    const double before = supportOfBush();
+    ASSERT_GT(before, 0);
+    insertWall(10);
+    EXPECT_GT(supportOfBush(), 0.9 * before);
 }
 
 TEST(Novelty, ParametersOutOfRangeAreNamed) {

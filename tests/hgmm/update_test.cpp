@@ -95,17 +95,57 @@ TEST(Update, NothingKnownChangesNothing) {
 TEST(Update, OutgrownComponentsGiveWay) {
     Fixture f;
     const Mixture<3> old = f.mixture;
-    f.split.outgrown = {{1, 2.F}, {1, 5.F}};
-    EXPECT_EQ(giveWay(f.mixture, f.split), std::vector<std::uint32_t>{1});
+    NoveltySplit split;  // sample 1 has support 2, sample 2 has 3
+    split.novel = {1, 2};
+    split.outgrown = {{1, 1}, {1, 2}};
+    const std::vector<Loss> losses = giveWay(f.mixture, f.index, f.samples, split);
+    ASSERT_EQ(losses.size(), 1U);
+    EXPECT_EQ(losses[0].component, 1U);
+    EXPECT_NEAR(losses[0].kept, 35.0 / 40.0, 1e-6);
     EXPECT_EQ(f.mixture.support[0], 100.F);
-    EXPECT_EQ(f.mixture.support[1], 33.F);
+    EXPECT_EQ(f.mixture.support[1], 35.F);
     EXPECT_EQ(f.mixture.mean, old.mean);
     EXPECT_EQ(f.mixture.covariance, old.covariance);
-    f.split.outgrown = {{0, 1.F}, {1, 50.F}};
-    EXPECT_EQ(giveWay(f.mixture, f.split), (std::vector<std::uint32_t>{0, 1}));
-    EXPECT_EQ(f.mixture.support[0], 99.F);
-    EXPECT_GT(f.mixture.support[1], 0.F) << "supports are positive";
-    EXPECT_LT(f.mixture.support[1], 1e-3F);
+    // Supports stay positive.
+    f.samples.support[2] = 50.F;
+    split.outgrown = {{1, 2}};
+    giveWay(f.mixture, f.index, f.samples, split);
+    EXPECT_EQ(f.mixture.support[1], kNoSupport);
+    EXPECT_TRUE(giveWay(f.mixture, f.index, f.samples, split).empty()) << "nothing is left";
+}
+
+TEST(Update, OutgrownComponentsLoseWhatTheyWouldBeGiven) {
+    // Of each sample, component 0 explains what component 1, outgrown, does not claim.
+    Fixture f;
+    const Mixture<3> old = f.mixture;
+    NoveltySplit split;
+    split.neighbourhoods.begin.push_back(0);
+    double expected = 0;
+    for (std::uint32_t i = 0; i < f.samples.size(); ++i) {
+        split.outgrown.push_back({1, i});
+        if (i % 2 == 0) {
+            split.novel.push_back(i);
+            expected += f.samples.support[i];
+            continue;
+        }
+        split.known.push_back(i);
+        split.neighbourhoods.component.push_back(0);
+        split.neighbourhoods.begin.push_back(split.neighbourhoods.begin.back() + 1);
+        const Gaussian<3> z = f.samples[i];
+        double p[2];
+        for (int j = 0; j < 2; ++j)
+            p[j] = old.support[j] *
+                   std::exp(WhitenedGaussian<3>(old[j]).logPdf(z.mean.data()));
+        expected += f.samples.support[i] * p[1] / (p[0] + p[1]);
+    }
+    double all = 0;
+    for (const float support : f.samples.support) all += support;
+    ASSERT_LT(expected, 0.9 * all) << "component 0 has a part in them";
+    for (float& support : f.samples.support) support *= 0.05F;  // less than there is
+    const std::vector<Loss> losses = giveWay(f.mixture, f.index, f.samples, split);
+    ASSERT_EQ(losses.size(), 1U);
+    EXPECT_NEAR(f.mixture.support[1], 40 - 0.05 * expected, 1e-3);
+    EXPECT_EQ(f.mixture.support[0], 100.F);
 }
 
 }  // namespace

@@ -150,7 +150,8 @@ std::vector<RayBundle> Map::insertSurfaces(const Mixture<3>& samples,
                                            InsertReport& report) {
     Mixture<3>& surfaces = model_.surfaces;
     const ComponentIndex& index = derived_->index(*this);
-    const Sighting sighting{model_.views, sensorOrigin, params_.cells};
+    const Sighting sighting{model_.views, sensorOrigin, params_.cells, params_.filter,
+                            normalOfRays(samples, sensorOrigin)};
     const NoveltySplit split = splitByNovelty(samples, index, params_.novelty, &sighting);
     KnownUpdate known = updateKnown(surfaces, index, samples, split);
     std::vector<RayBundle> bundles = std::move(known.shares);
@@ -161,9 +162,15 @@ std::vector<RayBundle> Map::insertSurfaces(const Mixture<3>& samples,
             i, merged(model_.views[i], std::max(before, 1e-6),
                       viewFrom(sensorOrigin, bundles[k].mean), bundles[k].support));
     }
-    for (const std::uint32_t i : giveWay(surfaces, split)) {
-        derived_->updateSurface(*this, i);
-        weakened.push_back(i);
+    for (const Loss& loss : giveWay(surfaces, index, samples, split)) {
+        // Its free space is that of the same hits.
+        if (freePerComponent()) {
+            Mixture<4>& free = model_.freeOfSurfaces;
+            free.support[loss.component] *= static_cast<float>(loss.kept);
+            derived_->updateFree(*this, loss.component);
+        }
+        derived_->updateSurface(*this, loss.component);
+        weakened.push_back(loss.component);
     }
     report.componentsOutgrown = weakened.size();
     const std::size_t before = surfaces.size();
@@ -231,7 +238,8 @@ void Map::removeWeak(std::vector<std::uint32_t> weakened, InsertReport& report) 
     std::sort(weakened.rbegin(), weakened.rend());
     weakened.erase(std::unique(weakened.begin(), weakened.end()), weakened.end());
     for (const std::uint32_t i : weakened) {
-        if (model_.surfaces.support[i] >= params_.contradiction.minSupport) continue;
+        const float support = model_.surfaces.support[i];
+        if (support > kNoSupport && support >= params_.contradiction.minSupport) continue;
         removeSurface(i);
         ++report.componentsRemoved;
     }

@@ -30,7 +30,8 @@ View moved(View view, const Pose& pose) {
     return view;
 }
 
-/// Whether two estimates of a surface were made from one side of it, as Sides has it.
+/// Whether two estimates of a surface were made from one side of it, as splitByNovelty has
+/// it.
 bool sameSide(const Gaussian<3>& g, const View& a, const View& b) {
     if (!a.known() || !b.known()) return true;
     const Eigen::Matrix3d covariance = g.covariance;

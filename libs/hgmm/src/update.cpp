@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "storable.h"
 
@@ -39,20 +38,23 @@ std::vector<Addition> emptyAdditions(const Mixture<3>& mixture, const NoveltySpl
     return additions;
 }
 
+/// Weights that sum to 1 from their logarithms.
+void normalise(std::vector<double>& p) {
+    const double largest = *std::max_element(p.begin(), p.end());
+    double sum = 0;
+    for (double& v : p) sum += v = std::exp(v - largest);
+    for (double& v : p) v /= sum;
+}
+
 /// p_ij of eq. (3.19) over a sample's neighbourhood: eq. (3.8) in log space. Supports stand
 /// for the weights pi_j = S_j / N, whose common N cancels.
 void responsibilities(const std::vector<Addition*>& neighbours, const ComponentIndex& index,
                       const float* point, std::vector<double>& p) {
     p.clear();
-    double largest = -std::numeric_limits<double>::infinity();
-    for (const Addition* neighbour : neighbours) {
+    for (const Addition* neighbour : neighbours)
         p.push_back(neighbour->logSupport +
                     index.factor(neighbour->component).logPdf(point));
-        largest = std::max(largest, p.back());
-    }
-    double sum = 0;
-    for (double& v : p) sum += v = std::exp(v - largest);
-    for (double& v : p) v /= sum;
+    normalise(p);
 }
 
 Gaussian<3> updated(const Gaussian<3>& old, const Addition& a) {
@@ -72,6 +74,45 @@ Gaussian<3> shareOf(const Gaussian<3>& old, const Addition& a) {
     g.mean = old.mean + shift;
     g.covariance = a.sumOuter / a.support - shift * shift.transpose();
     return g;
+}
+
+/// Support of a sample that falls to a component.
+struct Share {
+    std::uint32_t component;
+    double support;
+};
+
+/// What outgrown components would be given of the samples, components rising.
+std::vector<Share> outgrownShares(const Mixture<3>& mixture, const ComponentIndex& index,
+                                  const Mixture<3>& samples, const NoveltySplit& split) {
+    std::vector<Share> shares;
+    std::vector<double> p;
+    std::size_t k = 0;  // of the known samples, the next one
+    for (std::size_t begin = 0, end; begin < split.outgrown.size(); begin = end) {
+        const std::uint32_t i = split.outgrown[begin].sample;
+        for (end = begin; end < split.outgrown.size() && split.outgrown[end].sample == i;)
+            ++end;
+        const float point[3] = {samples.mean[0][i], samples.mean[1][i], samples.mean[2][i]};
+        const auto add = [&](std::uint32_t j) {
+            p.push_back(std::log(double(mixture.support[j])) +
+                        index.factor(j).logPdf(point));
+        };
+        p.clear();
+        for (std::size_t o = begin; o < end; ++o) add(split.outgrown[o].component);
+        while (k < split.known.size() && split.known[k] < i) ++k;
+        if (k < split.known.size() && split.known[k] == i)
+            for (std::uint32_t e = split.neighbourhoods.begin[k];
+                 e < split.neighbourhoods.begin[k + 1]; ++e)
+                add(split.neighbourhoods.component[e]);
+        normalise(p);
+        for (std::size_t o = begin; o < end; ++o)
+            shares.push_back(
+                {split.outgrown[o].component, p[o - begin] * samples.support[i]});
+    }
+    std::stable_sort(shares.begin(), shares.end(), [](const Share& a, const Share& b) {
+        return a.component < b.component;
+    });
+    return shares;
 }
 
 }  // namespace
@@ -107,16 +148,22 @@ KnownUpdate updateKnown(Mixture<3>& mixture, const ComponentIndex& index,
     return result;
 }
 
-std::vector<std::uint32_t> giveWay(Mixture<3>& mixture, const NoveltySplit& split) {
-    std::vector<std::uint32_t> changed;
-    for (const NoveltySplit::Outgrown& o : split.outgrown) {
-        float& support = mixture.support[o.component];
-        support = std::max(support - o.support, 1e-6F);
-        changed.push_back(o.component);
+std::vector<Loss> giveWay(Mixture<3>& mixture, const ComponentIndex& index,
+                          const Mixture<3>& samples, const NoveltySplit& split) {
+    const std::vector<Share> shares = outgrownShares(mixture, index, samples, split);
+    std::vector<Loss> losses;
+    for (std::size_t s = 0; s < shares.size();) {
+        const std::uint32_t j = shares[s].component;
+        double lost = 0;
+        for (; s < shares.size() && shares[s].component == j; ++s)
+            lost += shares[s].support;
+        const float before = mixture.support[j],
+                    after = std::max(static_cast<float>(before - lost), kNoSupport);
+        if (!(after < before)) continue;
+        mixture.support[j] = after;
+        losses.push_back({j, double(after) / double(before)});
     }
-    std::sort(changed.begin(), changed.end());
-    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-    return changed;
+    return losses;
 }
 
 }  // namespace hgmm

@@ -11,7 +11,7 @@ namespace hgmm {
 /// What becomes of a surface that rays pass through.
 struct ContradictionParams {
     /// Share of its support that a component keeps each time a scan saw through it [1], in
-    /// (0, 1]; 1 = surfaces stay for ever.
+    /// (0, 1]; 1 = rays never remove surfaces.
     double contradictedKeep = 0.25;
     /// A component with less support is dropped, new ones included [count], >= 0.
     double minSupport = 0.5;

@@ -6,6 +6,7 @@
 #include "hgmm/cells.h"
 #include "hgmm/component_index.h"
 #include "hgmm/em.h"
+#include "hgmm/filter.h"
 #include "hgmm/mixture.h"
 #include "hgmm/views.h"
 
@@ -22,9 +23,9 @@ namespace hgmm {
 /// explains only samples at which it is thin beside the cells of a first guess.
 struct NoveltyParams {
     double maxMahalanobis = 3.0;  ///< [sigma], in (0, 4]
-    /// Standard deviation across the surface that a ray meets [cell edges at the ray's
-    /// range, CellParams::edgeAt], in [0.001, 1000]. The default, 1 / sqrt(12), is that of
-    /// hits all over a cell.
+    /// Standard deviation across the surface that a ray meets, besides that of the noise
+    /// [cell edges at the ray's range, CellParams::edgeAt], in [0.001, 1000]. The default,
+    /// 1 / sqrt(12), is that of hits all over a cell.
     double maxThickness = 0.29;
 
     /// Throws std::invalid_argument naming the field.
@@ -39,9 +40,9 @@ struct NoveltySplit {
     /// A component that is too thick for a sample within maxMahalanobis of it.
     struct Outgrown {
         std::uint32_t component;
-        float support;  ///< of the sample
+        std::uint32_t sample;
     };
-    std::vector<Outgrown> outgrown;  ///< samples rising
+    std::vector<Outgrown> outgrown;  ///< samples rising, and components of a sample
 };
 
 /// From where samples were seen, and who saw what the map holds.
@@ -49,7 +50,17 @@ struct Sighting {
     const Views& views;            ///< of the indexed components
     Eigen::Vector3d sensorOrigin;  ///< of the samples, in their frame
     const CellParams& cells;       ///< of the samples' first guess
+    const FilterParams& filter;    ///< the sensor's noise
+    /// normalOfRays; zero where rays do not lie in one plane.
+    Eigen::Vector3d normalOfRays = Eigen::Vector3d::Zero();
 };
+
+/// Unit normal of the plane that holds all rays of a scan, as those of a planar laser:
+/// their root mean square slope to it is below 0.01 and they spread ten times as far in it.
+/// Zero where there is none.
+/// @param sensorOrigin in the frame of the samples
+Eigen::Vector3d normalOfRays(const Mixture<3>& samples,
+                             const Eigen::Vector3d& sensorOrigin);
 
 /// Cost is linear in the samples and does not depend on the size of the map.
 ///
@@ -59,10 +70,10 @@ struct Sighting {
 ///   wall seen from both sides gets components for each, whose views do not cancel;
 /// - at which it is thin (`maxThickness`). A ray along u meets a component as a surface
 /// with
-///   the normal Sigma^-1 u, across which its variance is
-///   u^T Sigma^-1 u / |Sigma^-1 u|^2: the smallest one for a plane, however slanted, and
-///   for a blob of a planar laser's hits, which is flat in the rays' plane, one in this
-///   plane.
+///   the normal n = Sigma^-1 u, across which its variance is u^T n / |n|^2: the smallest
+///   one for a plane, however slanted. A planar laser sees a section by the plane of its
+///   rays, in which n is taken: for a blob of its hits, which is flat in this plane, the
+///   variance is one within it.
 NoveltySplit splitByNovelty(const Mixture<3>& samples, const ComponentIndex& index,
                             const NoveltyParams& params,
                             const Sighting* sighting = nullptr);

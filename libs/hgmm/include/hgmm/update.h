@@ -21,9 +21,21 @@ struct KnownUpdate {
 KnownUpdate updateKnown(Mixture<3>& mixture, const ComponentIndex& index,
                         const Mixture<3>& samples, const NoveltySplit& split);
 
-/// Outgrown components give way to those that learn in their place: each loses the support
-/// of the samples that it is too thick for, but keeps a millionth of a hit. Returns those
-/// that lost, rising.
-std::vector<std::uint32_t> giveWay(Mixture<3>& mixture, const NoveltySplit& split);
+/// A component that lost support.
+struct Loss {
+    std::uint32_t component;
+    double kept;  ///< share of its support [1], in (0, 1]
+};
+
+/// Supports at or below this are none [count]: what gives way keeps so much at least.
+constexpr float kNoSupport = 1e-6F;
+
+/// Outgrown components give way to those that learn in their place: of each sample that
+/// they are too thick for, they lose what they would be given, had they a part in it: its
+/// responsibility (3.8), over them and those that explain the sample, times its support.
+/// Returns those that lost, rising.
+/// @param index of the mixture's components before the samples changed them
+std::vector<Loss> giveWay(Mixture<3>& mixture, const ComponentIndex& index,
+                          const Mixture<3>& samples, const NoveltySplit& split);
 
 }  // namespace hgmm
