@@ -10,6 +10,7 @@
 
 #include "hgmm/filter.h"
 #include "hgmm/map.h"
+#include "hgmm/update.h"
 #include "room_scanner.h"
 
 namespace hgmm {
@@ -285,6 +286,19 @@ TEST(Novelty, WhatIsCoarseFromAfarIsReplacedFromNear) {
     EXPECT_GT(outgrown, 0U);
     EXPECT_GT(removed, 0U);
     EXPECT_LT(largestSmallestAxis(map.mixture()), limit_m);
+}
+
+TEST(Novelty, WhatHasGivenAllAwayIsRemovedWhateverMinSupport) {
+    MapParams params;
+    params.contradiction.contradictedKeep = 1.0;
+    params.contradiction.minSupport = 0.0;
+    Map map(params);
+    map.insert(bushFrom({-20, 0, 0}, 1));
+    std::size_t removed = 0;
+    for (unsigned k = 0; k < 8; ++k)
+        removed += map.insert(bushFrom({-2, 0, 0}, 2 + k)).componentsRemoved;
+    EXPECT_GT(removed, 0U);
+    for (const float support : map.mixture().support) EXPECT_GT(support, kNoSupport);
 }
 
 TEST(Novelty, WhatOthersExplainDoesNotWearACoarseNeighbourDown) {
