@@ -30,7 +30,7 @@ using hgmm::Pose;
 
 constexpr double kOff_m = 0.3, kOff_deg = 5.0;     // of the search, and of climbs' starts
 constexpr double kNear_m = 0.05, kNear_deg = 0.5;  // of what counts as found
-constexpr int kClimbsPerScan = 5;
+constexpr int kClimbsPerScan = 20;
 constexpr std::size_t kNeighbours = 3;  // before and after a test scan
 
 /// What one test scan's likelihood led to, and how far that is from two poses: the
@@ -51,12 +51,19 @@ bool isNear(const PoseError& error) {
     return error.position_m <= kNear_m && error.rotation_deg <= kNear_deg;
 }
 
-/// Half of the scan's points are farther.
-double medianRange(const hgmm::Scan& scan) {
+/// A search for a pose that places these points. @param scan in the robot's frame
+PoseSearch searchFor(const hgmm::Scan& scan, bool planar) {
+    PoseSearch search;
+    search.planar = planar;
     std::vector<double> ranges;
-    for (std::size_t i = 0; i < scan.size(); ++i)
-        ranges.push_back(std::hypot(scan.x[i], scan.y[i], scan.z[i]));
-    return median(std::move(ranges));
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const Eigen::Vector3d point_sensor(scan.x[i], scan.y[i], scan.z[i]);
+        ranges.push_back(point_sensor.norm());
+        search.pivot += (scan.T_map_sensor.R * point_sensor + scan.T_map_sensor.t) /
+                        double(scan.size());
+    }
+    search.lever_m = std::max(0.1, median(std::move(ranges)));
+    return search;
 }
 
 /// T_map_robot after alignment of all points of a scan with the map.
@@ -79,9 +86,7 @@ class Explorer {
     ScanLandscape explore(const RecordedScan& recorded, const hgmm::Scan& scan) const {
         const bool planar =
             IS_CLASS(*recorded.observation, mrpt::obs::CObservation2DRangeScan);
-        PoseSearch search;
-        search.planar = planar;
-        search.lever_m = std::max(0.1, medianRange(scan));
+        PoseSearch search = searchFor(scan, planar);
         search.firstStep_m = planar ? 0.05 : std::clamp(0.05 * search.lever_m, 0.1, 0.3);
         const PoseScore score = [&](const Pose& T_map_robot) {
             return map_.computeObservationLikelihood(

@@ -75,7 +75,7 @@ TEST_F(ReplayIncremental, MapOfABoxRoomIsNearlyAsGoodAsBatchModels) {
     const auto map = metrics("plain")["maps"][0];
     EXPECT_EQ(map["components_surface"], rows[0].components);
     // But for rounding: its figures are those of the saved map.
-    EXPECT_NEAR(map["loglik_hit"], rows[0].logLikelihood, 2e-3);
+    EXPECT_NEAR(map["loglik_hit"], rows[0].logLikelihood, 5e-3);
 }
 
 TEST_F(ReplayIncremental, DoesNotDependOnTheNumberOfThreads) {

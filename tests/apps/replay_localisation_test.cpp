@@ -31,7 +31,7 @@ TEST_F(ReplayLocalisation, LandscapeHasItsMaximumAtTheTruth) {
     EXPECT_LT(highest[2], 0.02);
     EXPECT_LT(highest[3], 0.5);
     const auto climbs = row(outcome.out, "climbs, from the recording's pose");
-    EXPECT_EQ(climbs[0], 10);
+    EXPECT_EQ(climbs[0], 40);
     EXPECT_GE(climbs[1], 0.8) << outcome.out;
     EXPECT_LT(row(outcome.out, "registration, from the recording's pose")[2], 0.01);
     const std::string csv = content("report/landscape.csv");

@@ -109,105 +109,14 @@ TEST(Novelty, DoesNotDriftAsTheMapGrows) {
                 0.02);
 }
 
-/// Whether a component with these standard deviations along the axes, at `mean`, was too
-/// thick for a hit in its middle, seen from `sensor`.
-bool isOutgrown(const Eigen::Vector3d& deviations, const Eigen::Vector3d& mean,
-                const Eigen::Vector3d& sensor, double maxThickness = 0.29,
-                const Eigen::Vector3d& normalOfRays = {0, 0, 0},
-                double noisePerRange = 0.001) {
-    Mixture<3> map, samples;
-    Gaussian<3> g;
-    g.support = 100;
-    g.mean = mean;
-    g.covariance = deviations.cwiseAbs2().asDiagonal();
-    map.pushBack(g);
-    g.support = 3;
-    g.covariance = 1e-4 * Eigen::Matrix3d::Identity();
-    samples.pushBack(g);
-    ComponentIndex index;
-    index.rebuild(map);
-    Views views;
-    views.pushBack(viewFrom(sensor, mean));
-    NoveltyParams params;
-    params.maxThickness = maxThickness;
-    const CellParams cells;
-    FilterParams filter;
-    filter.noisePerRange = noisePerRange;
-    const Sighting sighting{views, sensor, cells, filter, normalOfRays};
-    const NoveltySplit split = splitByNovelty(samples, index, params, &sighting);
-    EXPECT_EQ(split.known.size() + split.novel.size(), 1U);
-    EXPECT_EQ(split.outgrown.size(), split.novel.size());
-    if (split.outgrown.empty()) return false;
-    EXPECT_EQ(split.outgrown[0].component, 0U);
-    EXPECT_EQ(split.outgrown[0].sample, 0U);
-    return true;
-}
-
-TEST(Novelty, ThicknessCountsAcrossTheSurfaceThatARayMeets) {
-    const Eigen::Vector3d wall(0.02, 2, 1), blob(0.3, 0.3, 0.3), ahead(4, 0, 0);
-    // Cells at 4 m have edges of 44 cm: 12.8 cm are too thick.
-    EXPECT_FALSE(isOutgrown(wall, ahead, {0, 0, 0}));
-    EXPECT_FALSE(isOutgrown(wall, ahead, {3.9, 3.9, 0.1}));  // 1.5 deg off its plane
-    EXPECT_TRUE(isOutgrown(blob, ahead, {0, 0, 0}));
-    EXPECT_FALSE(isOutgrown(blob, ahead, {0, 0, 0}, 0.7));
-    EXPECT_TRUE(isOutgrown({0.13, 2, 1}, ahead, {0, 0, 0}));
-    EXPECT_FALSE(isOutgrown({0.125, 2, 1}, ahead, {0, 0, 0}));
-    EXPECT_FALSE(isOutgrown(blob, ahead, {-50, 0, 0}));  // cells of 1.6 m
-    // A planar laser's hits are thin across its plane, which makes none of them a surface.
-    EXPECT_FALSE(isOutgrown({0.02, 2, 0.01}, ahead, {0, 0, 0}));
-    EXPECT_TRUE(isOutgrown({0.3, 0.3, 0.01}, ahead, {0, 0, 0}));
-    // The same from above is a floor.
-    EXPECT_FALSE(isOutgrown({0.3, 0.3, 0.01}, ahead, {0, 0, 1}));
-    // Not so if all rays lie in a plane: it is tilted by less than it takes to see a floor.
-    const Eigen::Vector3d sensor(0, 0, 0.02);  // 0.3 deg
-    EXPECT_FALSE(isOutgrown({0.3, 0.3, 0.01}, ahead, sensor));
-    const Eigen::Vector3d normal = Eigen::Vector3d(0.02, 0, 4).normalized();
-    EXPECT_TRUE(isOutgrown({0.3, 0.3, 0.01}, ahead, sensor, 0.29, normal));
-    EXPECT_FALSE(isOutgrown({0.02, 2, 0.01}, ahead, sensor, 0.29, normal));
-    // Noise of 20 cm at 4 m is no thickness.
-    EXPECT_FALSE(isOutgrown({0.2, 2, 1}, ahead, {0, 0, 0}, 0.29, {0, 0, 0}, 0.05));
-    EXPECT_TRUE(isOutgrown({0.25, 2, 1}, ahead, {0, 0, 0}, 0.29, {0, 0, 0}, 0.05));
-}
-
-TEST(Novelty, RaysOfPlanarLasersHaveANormal) {
-    const Eigen::Vector3d origin(3, -2, 1),
-        normal = Eigen::Vector3d(0.1, -0.2, 1).normalized();
-    const Eigen::Vector3d x = normal.unitOrthogonal(), y = normal.cross(x);
-    std::mt19937_64 random(4);
-    std::uniform_real_distribution<double> range(0.1, 30.0), slope(-1.0, 1.0);
-    // Rays over `aperture` [rad], up to `steepest` off the plane.
-    const auto found = [&](double aperture, double steepest) {
-        Mixture<3> samples;
-        for (int i = 0; i < 500; ++i) {
-            const double a = aperture * i / 499.0;
-            Gaussian<3> g;
-            g.support = 1;
-            g.mean = origin + range(random) * (std::cos(a) * x + std::sin(a) * y +
-                                               steepest * slope(random) * normal);
-            g.covariance = 1e-4 * Eigen::Matrix3d::Identity();
-            samples.pushBack(g);
-        }
-        return normalOfRays(samples, origin);
-    };
-    EXPECT_GT(std::abs(found(3.14, 0.0).dot(normal)), 1 - 1e-9);
-    EXPECT_GT(std::abs(found(1.0, 0.005).dot(normal)), 1 - 1e-4);
-    EXPECT_EQ(found(3.14, 0.1), Eigen::Vector3d::Zero().eval()) << "a lidar of some rows";
-    EXPECT_EQ(found(0.1, 0.0), Eigen::Vector3d::Zero().eval()) << "any plane along them";
-    EXPECT_EQ(normalOfRays({}, origin), Eigen::Vector3d::Zero().eval());
-    Mixture<3> atSensor;
-    Gaussian<3> g;
-    g.support = 1;
-    g.mean = origin;
-    g.covariance.setIdentity();
-    atSensor.pushBack(g);
-    EXPECT_EQ(normalOfRays(atSensor, origin), Eigen::Vector3d::Zero().eval());
-}
-
-/// Largest standard deviation within the plane z = 0 across a component's longer axis [m].
-double largestThickness(const Mixture<3>& mixture) {
+/// Largest standard deviation within the plane of a laser across a component's longer axis
+/// [m].
+double largestThickness(const Mixture<3>& mixture, const Eigen::Matrix3d& R_map_laser) {
     double largest = 0;
     for (std::size_t i = 0; i < mixture.size(); ++i) {
-        const Eigen::Matrix2d plane = mixture[i].covariance.topLeftCorner<2, 2>();
+        const Eigen::Matrix2d plane =
+            (R_map_laser.transpose() * mixture[i].covariance * R_map_laser)
+                .topLeftCorner<2, 2>();
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(plane);
         largest = std::max(largest, std::sqrt(eigen.eigenvalues()[0]));
     }
@@ -215,8 +124,10 @@ double largestThickness(const Mixture<3>& mixture) {
 }
 
 TEST(Novelty, ComponentsDoNotGrowOverARoom) {
-    // Legs of chairs and people: a planar laser hits something at any range. The robot
-    // sways.
+    // Legs of chairs and people: a planar laser hits something at any range. It is mounted
+    // aslant, and the robot sways.
+    const Eigen::Matrix3d mounted =
+        Eigen::AngleAxisd(0.6, Eigen::Vector3d(1, 2, 0).normalized()).toRotationMatrix();
     std::mt19937_64 random(11);
     std::uniform_real_distribution<float> range(1.F, 4.F);
     std::uniform_real_distribution<double> tilt(-0.0035, 0.0035);  // 0.2 deg
@@ -231,17 +142,18 @@ TEST(Novelty, ComponentsDoNotGrowOverARoom) {
         }
         const Eigen::AngleAxisd pitch(tilt(random), Eigen::Vector3d::UnitY()),
             roll(tilt(random), Eigen::Vector3d::UnitX());
-        scan.T_map_sensor.R = (pitch * roll).toRotationMatrix();
+        scan.T_map_sensor.R = mounted * (pitch * roll).toRotationMatrix();
         map.insert(scan);
         growing.insert(scan);
     }
     // A component may reach the limit, and a last scan push it over. Cells at 4 m: 44 cm.
-    EXPECT_LT(largestThickness(map.mixture()), 1.5 * 0.29 * 0.44);
-    EXPECT_GT(largestThickness(growing.mixture()), 2 * largestThickness(map.mixture()));
-    std::cout << "thickest component: " << largestThickness(map.mixture()) << " m of "
-              << map.mixture().size() << "; without a limit "
-              << largestThickness(growing.mixture()) << " m of " << growing.mixture().size()
-              << "\n";
+    EXPECT_LT(largestThickness(map.mixture(), mounted), 1.5 * 0.29 * 0.44);
+    EXPECT_GT(largestThickness(growing.mixture(), mounted),
+              2 * largestThickness(map.mixture(), mounted));
+    std::cout << "thickest component: " << largestThickness(map.mixture(), mounted)
+              << " m of " << map.mixture().size() << "; without a limit "
+              << largestThickness(growing.mixture(), mounted) << " m of "
+              << growing.mixture().size() << "\n";
 }
 
 /// Hits all over a ball of half a metre around (0, 0, 0).
@@ -299,6 +211,24 @@ TEST(Novelty, WhatHasGivenAllAwayIsRemovedWhateverMinSupport) {
         removed += map.insert(bushFrom({-2, 0, 0}, 2 + k)).componentsRemoved;
     EXPECT_GT(removed, 0U);
     for (const float support : map.mixture().support) EXPECT_GT(support, kNoSupport);
+}
+
+TEST(Novelty, WhatGivesWayGivesItsFreeSpaceAway) {
+    // The thesis' model: each surface has the free space before its own hits.
+    MapParams params;
+    params.contradiction.contradictedKeep = 1.0;
+    params.occupancy.freeSpace.freeSpaceModel =
+        static_cast<int>(FreeSpaceModel::perComponent);
+    Map map(params);
+    map.insert(bushFrom({-20, 0, 0}, 1));
+    std::size_t outgrown = 0;
+    for (unsigned k = 0; k < 3; ++k) {
+        outgrown += map.insert(bushFrom({-2, 0, 0}, 2 + k)).componentsOutgrown;
+        ASSERT_EQ(map.freeMixture().size(), map.mixture().size());
+        for (std::size_t i = 0; i < map.mixture().size(); ++i)
+            EXPECT_NEAR(map.freeMixture().support[i] / map.mixture().support[i], 1, 1e-3);
+    }
+    EXPECT_GT(outgrown, 0U);
 }
 
 TEST(Novelty, WhatOthersExplainDoesNotWearACoarseNeighbourDown) {

@@ -30,6 +30,22 @@ std::vector<int> axesOf(const PoseSearch& search) {
     return search.planar ? std::vector<int>{0, 1, 5} : std::vector<int>{0, 1, 2, 3, 4, 5};
 }
 
+/// Ways to move by 1 m: along the axes, and about those of the pose through the pivot.
+std::vector<Offset> directionsOf(const Pose& origin, const PoseSearch& search) {
+    std::vector<Offset> directions;
+    for (const int axis : axesOf(search)) directions.emplace_back()[axis] = 1;
+    if (search.pivot.isZero()) return directions;
+    for (const int axis : axesOf(search)) {
+        if (axis < 3) continue;
+        const Eigen::Vector3d shift =
+            origin.R * search.pivot.cross(Eigen::Vector3d::Unit(axis - 3)) / search.lever_m;
+        Offset& direction = directions.emplace_back();
+        direction[axis] = 1;
+        for (int d = 0; d < (search.planar ? 2 : 3); ++d) direction[d] = shift[d];
+    }
+    return directions;
+}
+
 Eigen::Vector3d direction(std::mt19937_64& stream, bool planar) {
     const double angle = 2 * M_PI * nextUniform(stream);
     const double z = planar ? 0.0 : 2 * nextUniform(stream) - 1;
@@ -45,7 +61,10 @@ struct Rated {
 class Climber {
  public:
     Climber(const PoseScore& score, const Pose& origin, const PoseSearch& search)
-        : score_(score), origin_(origin), search_(search), axes_(axesOf(search)) {}
+        : score_(score),
+          origin_(origin),
+          search_(search),
+          directions_(directionsOf(origin, search)) {}
 
     Rated rate(const Offset& offset) const {
         return {offset, score_(moved(origin_, offset, search_.lever_m))};
@@ -73,12 +92,12 @@ class Climber {
         return best;
     }
 
-    /// After one step along each axis that leads up.
+    /// After one step in each direction that leads up.
     Rated explored(Rated from, double step) const {
-        for (const int axis : axes_)
+        for (const Offset& direction : directions_)
             for (const double sign : {1.0, -1.0}) {
                 Offset offset = from.offset;
-                offset[axis] += sign * step;
+                for (int i = 0; i < 6; ++i) offset[i] += sign * step * direction[i];
                 const Rated next = rate(offset);
                 if (next.value <= from.value) continue;
                 from = next;
@@ -90,7 +109,7 @@ class Climber {
     const PoseScore& score_;
     const Pose& origin_;
     const PoseSearch& search_;
-    const std::vector<int> axes_;
+    const std::vector<Offset> directions_;
 };
 
 /// Nodes by number.

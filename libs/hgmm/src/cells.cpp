@@ -1,12 +1,15 @@
 #include "hgmm/cells.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 #include <unordered_map>
 
 #include "hgmm/component_index.h"
 #include "hgmm/require.h"
+#include "hgmm/thickness.h"
 
 namespace hgmm {
 
@@ -41,6 +44,68 @@ Neighbourhoods findNeighbourhoods(const Mixture<3>& samples, const Mixture<3>& m
     return result;
 }
 
+/// The plane across which a component is to be cut.
+struct Cut {
+    Eigen::Vector3d normal;
+    double offset;
+};
+
+/// Nothing if the component is as thin as it must be.
+std::optional<Cut> cutOf(const Gaussian<3>& component, const ThicknessLimit& limit) {
+    const Eigen::LLT<Eigen::Matrix3d> llt(component.covariance);
+    if (llt.info() != Eigen::Success) return std::nullopt;
+    const Eigen::Vector3d towardsSensor = limit.sensorOrigin - component.mean,
+                          solved = llt.solve(towardsSensor),
+                          normal = limit.inPlaneOfRays(solved);
+    if (!(towardsSensor.dot(solved) >
+          limit.maxVarianceAt(towardsSensor.norm()) * normal.squaredNorm()))
+        return std::nullopt;
+    return Cut{normal, normal.dot(component.mean)};
+}
+
+/// Some of the samples, and their moments.
+struct Part {
+    Gaussian<3> moments;
+    std::vector<std::uint32_t> samples;
+
+    void add(std::uint32_t i, const Gaussian<3>& sample) {
+        moments = samples.empty() ? sample : mergeMoments(moments, sample);
+        samples.push_back(i);
+    }
+};
+
+/// Cuts components that are thicker than the limit in two, until none is.
+/// @param own component of each sample
+void cutThick(const Mixture<3>& samples, const ThicknessLimit& limit,
+              std::vector<Gaussian<3>>& components, std::vector<std::uint32_t>& own) {
+    std::vector<Part> parts(components.size());
+    for (std::size_t c = 0; c < components.size(); ++c) parts[c].moments = components[c];
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        parts[own[i]].samples.push_back(static_cast<std::uint32_t>(i));
+    // Those that are added are looked at in their turn.
+    for (std::size_t c = 0; c < parts.size();) {
+        const std::optional<Cut> cut = cutOf(parts[c].moments, limit);
+        Part below, above;
+        if (cut)
+            for (const std::uint32_t i : parts[c].samples) {
+                const Gaussian<3> sample = samples[i];
+                const bool isAbove = cut->normal.dot(sample.mean) > cut->offset;
+                (isAbove ? above : below).add(i, sample);
+            }
+        // A single sample, or some at one place, may be as thick as it is.
+        if (below.samples.empty() || above.samples.empty()) {
+            ++c;
+            continue;
+        }
+        for (const std::uint32_t i : above.samples)
+            own[i] = static_cast<std::uint32_t>(parts.size());
+        parts[c] = std::move(below);
+        parts.push_back(std::move(above));
+    }
+    components.clear();
+    for (const Part& part : parts) components.push_back(part.moments);
+}
+
 }  // namespace
 
 void CellParams::validate() const {
@@ -72,7 +137,7 @@ std::vector<LatticeCell> assignCells(const std::array<std::vector<float>, 3>& me
 
 InitialMixture initialiseFromCells(const Mixture<3>& samples,
                                    const Eigen::Vector3d& sensorOrigin,
-                                   const CellParams& params) {
+                                   const CellParams& params, const ThicknessLimit* limit) {
     const std::vector<LatticeCell> cells = assignCells(samples.mean, sensorOrigin, params);
     std::unordered_map<LatticeCell, std::uint32_t, LatticeCellHash> componentOf;
     std::vector<std::uint32_t> own(samples.size());
@@ -86,6 +151,7 @@ InitialMixture initialiseFromCells(const Mixture<3>& samples,
         else
             components[own[i]] = mergeMoments(components[own[i]], samples[i]);
     }
+    if (limit != nullptr) cutThick(samples, *limit, components, own);
     InitialMixture initial;
     initial.mixture.reserve(components.size());
     for (const Gaussian<3>& c : components) initial.mixture.pushBack(c);

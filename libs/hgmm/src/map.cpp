@@ -21,9 +21,10 @@ Eigen::Vector3d latticePoint(const Eigen::Vector3d& p) {
 }
 
 /// EM from an overestimate, then Algorithm 1 down to the fidelity threshold.
-Mixture<3> novelComponents(const Mixture<3>& samples, const Eigen::Vector3d& sensorOrigin,
+Mixture<3> novelComponents(const Mixture<3>& samples, const ThicknessLimit& limit,
                            const MapParams& params) {
-    const InitialMixture initial = initialiseFromCells(samples, sensorOrigin, params.cells);
+    const InitialMixture initial =
+        initialiseFromCells(samples, limit.sensorOrigin, params.cells, &limit);
     const Mixture<3> reference =
         fitSparse(samples, initial.mixture, initial.neighbourhoods, params.em).mixture;
     HierarchyParams toThreshold = params.hierarchy;
@@ -131,9 +132,11 @@ void Map::insertSpace(const ScanSamples& scan, const Pose& T_local_sensor,
     report.samples = scan.samples_sensor.size();
     if (scan.samples_sensor.empty()) return;
     const Mixture<3> samples = transformed(scan.samples_sensor, T_local_sensor);
+    const ThicknessLimit limit{params_.novelty.maxThickness, params_.cells, params_.filter,
+                               T_local_sensor.t,
+                               T_local_sensor.R * scan.normalOfRays_sensor};
     std::vector<std::uint32_t> weakened;
-    const std::vector<RayBundle> bundles =
-        insertSurfaces(samples, T_local_sensor.t, weakened, report);
+    const std::vector<RayBundle> bundles = insertSurfaces(samples, limit, weakened, report);
     if (!freePerComponent())
         for (const std::uint32_t i :
              model_.freeSpace.insert(bundles, T_local_sensor.t, derived_->clearance(*this),
@@ -145,13 +148,13 @@ void Map::insertSpace(const ScanSamples& scan, const Pose& T_local_sensor,
 }
 
 std::vector<RayBundle> Map::insertSurfaces(const Mixture<3>& samples,
-                                           const Eigen::Vector3d& sensorOrigin,
+                                           const ThicknessLimit& limit,
                                            std::vector<std::uint32_t>& weakened,
                                            InsertReport& report) {
     Mixture<3>& surfaces = model_.surfaces;
+    const Eigen::Vector3d& sensorOrigin = limit.sensorOrigin;
     const ComponentIndex& index = derived_->index(*this);
-    const Sighting sighting{model_.views, sensorOrigin, params_.cells, params_.filter,
-                            normalOfRays(samples, sensorOrigin)};
+    const Sighting sighting{model_.views, limit};
     const NoveltySplit split = splitByNovelty(samples, index, params_.novelty, &sighting);
     KnownUpdate known = updateKnown(surfaces, index, samples, split);
     std::vector<RayBundle> bundles = std::move(known.shares);
@@ -176,7 +179,7 @@ std::vector<RayBundle> Map::insertSurfaces(const Mixture<3>& samples,
     const std::size_t before = surfaces.size();
     if (!split.novel.empty()) {
         const Mixture<3> novel =
-            novelComponents(selected(samples, split.novel), sensorOrigin, params_);
+            novelComponents(selected(samples, split.novel), limit, params_);
         // EM leaves components that hardly explain anything; they would still answer.
         for (std::size_t i = 0; i < novel.size(); ++i)
             if (novel.support[i] >= params_.contradiction.minSupport)

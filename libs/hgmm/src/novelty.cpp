@@ -1,6 +1,5 @@
 #include "hgmm/novelty.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -56,9 +55,9 @@ class Explanation {
         Eigen::Vector3d towardsSensor = Eigen::Vector3d::Zero();
         double maxVariance = 0;
         if (sighting_ != nullptr) {
-            towardsSensor =
-                sighting_->sensorOrigin - Eigen::Vector3d(point[0], point[1], point[2]);
-            maxVariance = maxVarianceAt(towardsSensor.norm());
+            towardsSensor = sighting_->limit.sensorOrigin -
+                            Eigen::Vector3d(point[0], point[1], point[2]);
+            maxVariance = sighting_->limit.maxVarianceAt(towardsSensor.norm());
         }
         auto& components = found.neighbourhoods.component;
         const auto first = static_cast<std::ptrdiff_t>(components.size()),
@@ -69,8 +68,8 @@ class Explanation {
             if (sighting_ != nullptr) {
                 // Sigma^-1 u is normal to the surface that the ray meets.
                 const Eigen::Vector3d ray = whitened(factor, towardsSensor);
-                Eigen::Vector3d normal = transposed(factor, ray);
-                normal -= sighting_->normalOfRays * sighting_->normalOfRays.dot(normal);
+                const Eigen::Vector3d normal =
+                    sighting_->limit.inPlaneOfRays(transposed(factor, ray));
                 const Eigen::Vector3d& view = sighting_->views[j].direction;
                 if (normal.dot(view) <= 0 && !view.isZero()) return;
                 if (ray.squaredNorm() > maxVariance * normal.squaredNorm()) {
@@ -89,13 +88,6 @@ class Explanation {
     }
 
  private:
-    /// What a component may have across a surface at a range [m^2].
-    double maxVarianceAt(double range_m) const {
-        const double thickness = params_.maxThickness * sighting_->cells.edgeAt(range_m),
-                     noise = sighting_->filter.noiseAt(range_m);
-        return thickness * thickness + noise * noise;
-    }
-
     const Mixture<3>& samples_;
     const ComponentIndex& index_;
     const NoveltyParams& params_;
@@ -104,28 +96,6 @@ class Explanation {
 };
 
 }  // namespace
-
-Eigen::Vector3d normalOfRays(const Mixture<3>& samples,
-                             const Eigen::Vector3d& sensorOrigin) {
-    constexpr double kMaxSlope = 0.01, kLeastSpread = 10 * kMaxSlope;
-    Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-    double rays = 0;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        const Eigen::Vector3d ray =
-            Eigen::Vector3d(samples.mean[0][i], samples.mean[1][i], samples.mean[2][i]) -
-            sensorOrigin;
-        const double squared = ray.squaredNorm();
-        if (!(squared > 0)) continue;
-        scatter += ray * ray.transpose() / squared;
-        rays += 1;
-    }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter);
-    const Eigen::Vector3d& spread = eigen.eigenvalues();
-    if (spread[0] > kMaxSlope * kMaxSlope * rays ||
-        !(spread[1] > kLeastSpread * kLeastSpread * rays))
-        return Eigen::Vector3d::Zero();
-    return eigen.eigenvectors().col(0);
-}
 
 void NoveltyParams::validate() const {
     requireInRange("maxMahalanobis", maxMahalanobis, 0.1, ComponentIndex::kSigmas);

@@ -11,6 +11,7 @@ ScanSamples samplesOf(const Scan& scan, const MapParams& params) {
     ScanSamples result;
     result.samples_sensor = filterScan(scan, params.filter, &result.points);
     bridgeGaps(result.samples_sensor, params.cells);
+    result.normalOfRays_sensor = normalOfRays(result.samples_sensor);
     return result;
 }
 

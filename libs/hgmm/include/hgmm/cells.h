@@ -10,6 +10,8 @@
 
 namespace hgmm {
 
+struct ThicknessLimit;
+
 /// The first guess of a mixture: moments of the samples in each cell of a voxel grid,
 /// thesis 3.3.4 ("a voxel-grid filter ... indicative of the overestimate for lambda_f").
 struct CellParams {
@@ -42,8 +44,13 @@ struct InitialMixture {
 
 /// Cells follow each sample's own range |sample - sensorOrigin| in octaves. Samples and
 /// origin are in the same frame.
+///
+/// With a `limit`, cells whose samples are thicker than it allows are cut in two across the
+/// surface, and so on: few hits in a large cell, of the leaves of a bush or of the edge of
+/// a thing with what is behind, would make a component that explains none of them.
 InitialMixture initialiseFromCells(const Mixture<3>& samples,
                                    const Eigen::Vector3d& sensorOrigin,
-                                   const CellParams& params);
+                                   const CellParams& params,
+                                   const ThicknessLimit* limit = nullptr);
 
 }  // namespace hgmm

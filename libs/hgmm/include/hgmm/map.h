@@ -199,7 +199,7 @@ class Map {
     /// Returns what the scan gave to each component that it changed or added. Those that
     /// lost support join `weakened`.
     std::vector<RayBundle> insertSurfaces(const Mixture<3>& samples,
-                                          const Eigen::Vector3d& sensorOrigin,
+                                          const ThicknessLimit& limit,
                                           std::vector<std::uint32_t>& weakened,
                                           InsertReport& report);
     /// Likewise.

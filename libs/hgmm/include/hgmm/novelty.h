@@ -3,11 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "hgmm/cells.h"
 #include "hgmm/component_index.h"
 #include "hgmm/em.h"
-#include "hgmm/filter.h"
 #include "hgmm/mixture.h"
+#include "hgmm/thickness.h"
 #include "hgmm/views.h"
 
 namespace hgmm {
@@ -47,20 +46,9 @@ struct NoveltySplit {
 
 /// From where samples were seen, and who saw what the map holds.
 struct Sighting {
-    const Views& views;            ///< of the indexed components
-    Eigen::Vector3d sensorOrigin;  ///< of the samples, in their frame
-    const CellParams& cells;       ///< of the samples' first guess
-    const FilterParams& filter;    ///< the sensor's noise
-    /// normalOfRays; zero where rays do not lie in one plane.
-    Eigen::Vector3d normalOfRays = Eigen::Vector3d::Zero();
+    const Views& views;    ///< of the indexed components
+    ThicknessLimit limit;  ///< of what explains the samples
 };
-
-/// Unit normal of the plane that holds all rays of a scan, as those of a planar laser:
-/// their root mean square slope to it is below 0.01 and they spread ten times as far in it.
-/// Zero where there is none.
-/// @param sensorOrigin in the frame of the samples
-Eigen::Vector3d normalOfRays(const Mixture<3>& samples,
-                             const Eigen::Vector3d& sensorOrigin);
 
 /// Cost is linear in the samples and does not depend on the size of the map.
 ///
@@ -68,12 +56,7 @@ Eigen::Vector3d normalOfRays(const Mixture<3>& samples,
 /// - seen from its own side: u^T Sigma^-1 v > 0 for their directions u, v towards the
 ///   sensors, which for a flat component compares the signs of its normal with both. So a
 ///   wall seen from both sides gets components for each, whose views do not cancel;
-/// - at which it is thin (`maxThickness`). A ray along u meets a component as a surface
-/// with
-///   the normal n = Sigma^-1 u, across which its variance is u^T n / |n|^2: the smallest
-///   one for a plane, however slanted. A planar laser sees a section by the plane of its
-///   rays, in which n is taken: for a blob of its hits, which is flat in this plane, the
-///   variance is one within it.
+/// - at which it is thin (ThicknessLimit).
 NoveltySplit splitByNovelty(const Mixture<3>& samples, const ComponentIndex& index,
                             const NoveltyParams& params,
                             const Sighting* sighting = nullptr);

@@ -3,6 +3,7 @@
 #include "hgmm/map_params.h"
 #include "hgmm/mixture.h"
 #include "hgmm/scan.h"
+#include "hgmm/thickness.h"
 
 namespace hgmm {
 
@@ -13,6 +14,8 @@ struct ScanSamples {
     Mixture<3>
         samples_sensor;   ///< after the filter (filterScan), gaps bridged (bridgeGaps)
     FilterCounts points;  ///< that the filter kept and dropped
+    /// normalOfRays; zero where rays do not lie in one plane.
+    Eigen::Vector3d normalOfRays_sensor = Eigen::Vector3d::Zero();
 };
 
 /// Uses params.filter and params.cells. Throws std::invalid_argument for a malformed scan

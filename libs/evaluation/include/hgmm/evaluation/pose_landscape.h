@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Core>
 #include <functional>
 #include <random>
 
@@ -28,6 +29,10 @@ struct PoseSearch {
     double lever_m = 1.0;       ///< rotations by a / lever_m count as steps of a [m], > 0
     double firstStep_m = 0.1;   ///< of a climb, and between nodes of a lattice [m], > 0
     double lastStep_m = 0.002;  ///< of a climb [m], > 0
+    /// Climbs also turn about this point [m], in the frame of the pose, unless it is zero:
+    /// if what a pose places is all before it, as what a depth camera saw, turning about
+    /// the pose itself moves all of it aside.
+    Eigen::Vector3d pivot = Eigen::Vector3d::Zero();
 };
 
 /// The pose at which a pattern search (Hooke and Jeeves 1961) ends: along the axes of the
