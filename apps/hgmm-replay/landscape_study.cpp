@@ -51,18 +51,21 @@ bool isNear(const PoseError& error) {
     return error.position_m <= kNear_m && error.rotation_deg <= kNear_deg;
 }
 
-/// A search for a pose that places these points. @param scan in the robot's frame
-PoseSearch searchFor(const hgmm::Scan& scan, bool planar) {
+/// A search for a pose that places what the map would learn of a scan, which is in the
+/// robot's frame.
+PoseSearch searchFor(const hgmm::Scan& scan, const hgmm::FilterParams& filter,
+                     bool planar) {
+    const hgmm::Mixture<3> samples_sensor = hgmm::filterScan(scan, filter);
     PoseSearch search;
     search.planar = planar;
     std::vector<double> ranges;
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-        const Eigen::Vector3d point_sensor(scan.x[i], scan.y[i], scan.z[i]);
-        ranges.push_back(point_sensor.norm());
-        search.pivot += (scan.T_map_sensor.R * point_sensor + scan.T_map_sensor.t) /
-                        double(scan.size());
+    for (std::size_t i = 0; i < samples_sensor.size(); ++i) {
+        const Eigen::Vector3d mean = samples_sensor[i].mean;
+        ranges.push_back(mean.norm());
+        search.pivot += (scan.T_map_sensor.R * mean + scan.T_map_sensor.t) /
+                        double(samples_sensor.size());
     }
-    search.lever_m = std::max(0.1, median(std::move(ranges)));
+    search.lever_m = ranges.empty() ? 0.1 : std::max(0.1, median(std::move(ranges)));
     return search;
 }
 
@@ -86,7 +89,7 @@ class Explorer {
     ScanLandscape explore(const RecordedScan& recorded, const hgmm::Scan& scan) const {
         const bool planar =
             IS_CLASS(*recorded.observation, mrpt::obs::CObservation2DRangeScan);
-        PoseSearch search = searchFor(scan, planar);
+        PoseSearch search = searchFor(scan, map_.model().params().filter, planar);
         search.firstStep_m = planar ? 0.05 : std::clamp(0.05 * search.lever_m, 0.1, 0.3);
         const PoseScore score = [&](const Pose& T_map_robot) {
             return map_.computeObservationLikelihood(

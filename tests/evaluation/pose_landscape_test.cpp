@@ -94,10 +94,14 @@ TEST(PoseLandscape, PlanarSearchStaysInThePlane) {
     };
     PoseSearch search;
     search.planar = true;
-    const Pose end = climb(score, {}, search);
-    EXPECT_NEAR(end.t.x(), 0.2, 0.003);
-    EXPECT_NEAR(end.t.y(), -0.1, 0.003);
-    EXPECT_EQ(end.t.z(), 0);
+    for (const Pose& start : {Pose{}, Pose{tilted().R, Eigen::Vector3d::Zero()}})
+        for (const Eigen::Vector3d& pivot : {Eigen::Vector3d(0, 0, 0), {2, 1, 0.5}}) {
+            search.pivot = pivot;
+            const Pose end = climb(score, start, search);
+            EXPECT_NEAR(end.t.x(), 0.2, 0.003);
+            EXPECT_NEAR(end.t.y(), -0.1, 0.003);
+            EXPECT_EQ(end.t.z(), 0);
+        }
 }
 
 TEST(PoseLandscape, FindsTheHigherOfTwoHills) {

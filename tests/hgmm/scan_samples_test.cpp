@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "hgmm/map.h"
@@ -19,6 +20,15 @@ TEST(ScanSamples, DoNotDependOnThePose) {
     EXPECT_EQ(here.points.used, scan.size());
     scan.T_map_sensor = poseAt(900, -70, 3, 2);
     EXPECT_EQ(samplesOf(scan, {}).samples_sensor, here.samples_sensor);
+    EXPECT_EQ(here.normalOfRays_sensor, Eigen::Vector3d::Zero().eval());
+
+    Scan planar;
+    for (int i = 0; i < 180; ++i) {
+        const float angle = 0.0174533F * float(i);
+        planar.pushBack(3 * std::cos(angle), 0.F, 3 * std::sin(angle));
+    }
+    planar.T_map_sensor = scan.T_map_sensor;
+    EXPECT_GT(std::abs(samplesOf(planar, {}).normalOfRays_sensor.y()), 1 - 1e-9);
 }
 
 TEST(ScanSamples, MakeTheMapThatTheScanMakes) {

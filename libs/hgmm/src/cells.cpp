@@ -3,9 +3,11 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 
 #include "hgmm/component_index.h"
 #include "hgmm/require.h"
@@ -74,36 +76,60 @@ struct Part {
     }
 };
 
-/// Cuts components that are thicker than the limit in two, until none is.
-/// @param own component of each sample
-void cutThick(const Mixture<3>& samples, const ThicknessLimit& limit,
-              std::vector<Gaussian<3>>& components, std::vector<std::uint32_t>& own) {
-    std::vector<Part> parts(components.size());
-    for (std::size_t c = 0; c < components.size(); ++c) parts[c].moments = components[c];
-    for (std::size_t i = 0; i < samples.size(); ++i)
-        parts[own[i]].samples.push_back(static_cast<std::uint32_t>(i));
-    // Those that are added are looked at in their turn.
-    for (std::size_t c = 0; c < parts.size();) {
-        const std::optional<Cut> cut = cutOf(parts[c].moments, limit);
-        Part below, above;
-        if (cut)
-            for (const std::uint32_t i : parts[c].samples) {
-                const Gaussian<3> sample = samples[i];
-                const bool isAbove = cut->normal.dot(sample.mean) > cut->offset;
-                (isAbove ? above : below).add(i, sample);
-            }
-        // A single sample, or some at one place, may be as thick as it is.
-        if (below.samples.empty() || above.samples.empty()) {
-            ++c;
-            continue;
-        }
-        for (const std::uint32_t i : above.samples)
-            own[i] = static_cast<std::uint32_t>(parts.size());
-        parts[c] = std::move(below);
-        parts.push_back(std::move(above));
+/// Both sides, unless one would have too little support.
+std::optional<std::pair<Part, Part>> halves(const Part& whole, const Mixture<3>& samples,
+                                            const Thinning& thinning) {
+    const std::optional<Cut> cut = cutOf(whole.moments, thinning.limit);
+    if (!cut) return std::nullopt;
+    std::pair<Part, Part> sides;
+    for (const std::uint32_t i : whole.samples) {
+        const Gaussian<3> sample = samples[i];
+        const bool isAbove = cut->normal.dot(sample.mean) > cut->offset;
+        (isAbove ? sides.second : sides.first).add(i, sample);
     }
-    components.clear();
-    for (const Part& part : parts) components.push_back(part.moments);
+    for (const Part& side : {sides.first, sides.second})
+        if (side.samples.empty() || side.moments.support < thinning.minSupport)
+            return std::nullopt;
+    return sides;
+}
+
+/// Cuts components that are thicker than the limit in two, until none is: those of doubled
+/// cells with samples that are learnt again.
+/// @param cells of the samples
+/// @param own component of each sample
+void cutThick(const Mixture<3>& samples, const std::vector<LatticeCell>& cells,
+              const CellParams& params, const Thinning& thinning,
+              std::vector<Gaussian<3>>& components, std::vector<std::uint32_t>& own) {
+    std::map<std::uint32_t, Part> doubled;
+    for (const std::uint32_t i : thinning.again) {
+        const Gaussian<3> sample = samples[i];
+        const double range = (sample.mean - thinning.limit.sensorOrigin).norm();
+        // Others hold as many samples as they must, and are hardly ever too thick.
+        if (cells[i].octave > octaveOf(params.edgeAt(range)))
+            doubled[own[i]].moments = components[own[i]];
+    }
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        if (const auto part = doubled.find(own[i]); part != doubled.end())
+            part->second.samples.push_back(static_cast<std::uint32_t>(i));
+
+    for (auto& [c, part] : doubled) {
+        std::vector<Part> toCut{std::move(part)};
+        for (bool isFirst = true; !toCut.empty();) {
+            Part whole = std::move(toCut.back());
+            toCut.pop_back();
+            if (auto sides = halves(whole, samples, thinning)) {
+                toCut.push_back(std::move(sides->second));
+                toCut.push_back(std::move(sides->first));
+                continue;
+            }
+            // The first one that stays takes the component's place.
+            const auto target = isFirst ? c : static_cast<std::uint32_t>(components.size());
+            if (!isFirst) components.emplace_back();
+            components[target] = whole.moments;
+            for (const std::uint32_t i : whole.samples) own[i] = target;
+            isFirst = false;
+        }
+    }
 }
 
 }  // namespace
@@ -137,7 +163,7 @@ std::vector<LatticeCell> assignCells(const std::array<std::vector<float>, 3>& me
 
 InitialMixture initialiseFromCells(const Mixture<3>& samples,
                                    const Eigen::Vector3d& sensorOrigin,
-                                   const CellParams& params, const ThicknessLimit* limit) {
+                                   const CellParams& params, const Thinning* thinning) {
     const std::vector<LatticeCell> cells = assignCells(samples.mean, sensorOrigin, params);
     std::unordered_map<LatticeCell, std::uint32_t, LatticeCellHash> componentOf;
     std::vector<std::uint32_t> own(samples.size());
@@ -151,7 +177,7 @@ InitialMixture initialiseFromCells(const Mixture<3>& samples,
         else
             components[own[i]] = mergeMoments(components[own[i]], samples[i]);
     }
-    if (limit != nullptr) cutThick(samples, *limit, components, own);
+    if (thinning != nullptr) cutThick(samples, cells, params, *thinning, components, own);
     InitialMixture initial;
     initial.mixture.reserve(components.size());
     for (const Gaussian<3>& c : components) initial.mixture.pushBack(c);

@@ -20,13 +20,28 @@ Eigen::Vector3d latticePoint(const Eigen::Vector3d& p) {
     return p.array().round();
 }
 
+/// Of the novel samples, those that outgrown components could not explain.
+std::vector<std::uint32_t> learntAgain(const NoveltySplit& split) {
+    std::vector<std::uint32_t> again;
+    auto outgrown = split.outgrown.begin();
+    for (std::uint32_t n = 0; n < split.novel.size(); ++n) {
+        while (outgrown != split.outgrown.end() && outgrown->sample < split.novel[n])
+            ++outgrown;
+        if (outgrown == split.outgrown.end()) break;
+        if (outgrown->sample == split.novel[n]) again.push_back(n);
+    }
+    return again;
+}
+
 /// EM from an overestimate, then Algorithm 1 down to the fidelity threshold.
-Mixture<3> novelComponents(const Mixture<3>& samples, const ThicknessLimit& limit,
-                           const MapParams& params) {
+Mixture<3> novelComponents(const Mixture<3>& samples, const NoveltySplit& split,
+                           const ThicknessLimit& limit, const MapParams& params) {
+    const Mixture<3> novel = selected(samples, split.novel);
+    const Thinning thinning{limit, learntAgain(split), params.contradiction.minSupport};
     const InitialMixture initial =
-        initialiseFromCells(samples, limit.sensorOrigin, params.cells, &limit);
+        initialiseFromCells(novel, limit.sensorOrigin, params.cells, &thinning);
     const Mixture<3> reference =
-        fitSparse(samples, initial.mixture, initial.neighbourhoods, params.em).mixture;
+        fitSparse(novel, initial.mixture, initial.neighbourhoods, params.em).mixture;
     HierarchyParams toThreshold = params.hierarchy;
     toThreshold.levels = 1;
     return generateHierarchy(reference, toThreshold).levels.front();
@@ -178,8 +193,7 @@ std::vector<RayBundle> Map::insertSurfaces(const Mixture<3>& samples,
     report.componentsOutgrown = weakened.size();
     const std::size_t before = surfaces.size();
     if (!split.novel.empty()) {
-        const Mixture<3> novel =
-            novelComponents(selected(samples, split.novel), limit, params_);
+        const Mixture<3> novel = novelComponents(samples, split, limit, params_);
         // EM leaves components that hardly explain anything; they would still answer.
         for (std::size_t i = 0; i < novel.size(); ++i)
             if (novel.support[i] >= params_.contradiction.minSupport)

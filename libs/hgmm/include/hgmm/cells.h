@@ -10,7 +10,7 @@
 
 namespace hgmm {
 
-struct ThicknessLimit;
+struct Thinning;
 
 /// The first guess of a mixture: moments of the samples in each cell of a voxel grid,
 /// thesis 3.3.4 ("a voxel-grid filter ... indicative of the overestimate for lambda_f").
@@ -38,19 +38,20 @@ std::vector<LatticeCell> assignCells(const std::array<std::vector<float>, 3>& me
 
 /// An overestimate of the fidelity threshold, ready for fitSparse.
 struct InitialMixture {
-    Mixture<3> mixture;             ///< one component per cell
-    Neighbourhoods neighbourhoods;  ///< a sample's cell and those touching it
+    Mixture<3> mixture;             ///< one component per cell, or part of a cell
+    Neighbourhoods neighbourhoods;  ///< a sample's component and those near it
 };
 
 /// Cells follow each sample's own range |sample - sensorOrigin| in octaves. Samples and
 /// origin are in the same frame.
 ///
-/// With a `limit`, cells whose samples are thicker than it allows are cut in two across the
-/// surface, and so on: few hits in a large cell, of the leaves of a bush or of the edge of
-/// a thing with what is behind, would make a component that explains none of them.
+/// With a `thinning`, whose sensorOrigin is the same, doubled cells with samples that are
+/// learnt again are cut in two across the surface while they are thicker than the limit:
+/// few hits in a large cell, of the leaves of a bush or of the edge of a thing with what is
+/// behind, make a component that explains none of them when they are seen again.
 InitialMixture initialiseFromCells(const Mixture<3>& samples,
                                    const Eigen::Vector3d& sensorOrigin,
                                    const CellParams& params,
-                                   const ThicknessLimit* limit = nullptr);
+                                   const Thinning* thinning = nullptr);
 
 }  // namespace hgmm

@@ -14,7 +14,8 @@ struct ScanSamples {
     Mixture<3>
         samples_sensor;   ///< after the filter (filterScan), gaps bridged (bridgeGaps)
     FilterCounts points;  ///< that the filter kept and dropped
-    /// normalOfRays; zero where rays do not lie in one plane.
+    /// normalOfRays(samples_sensor): without it, those of a planar laser pass for surfaces
+    /// across its plane.
     Eigen::Vector3d normalOfRays_sensor = Eigen::Vector3d::Zero();
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 #include <Eigen/Core>
+#include <cstdint>
+#include <vector>
 
 #include "hgmm/cells.h"
 #include "hgmm/filter.h"
@@ -19,6 +21,8 @@ Eigen::Vector3d normalOfRays(const Mixture<3>& samples_sensor);
 /// which its variance is u^T n / |n|^2: the smallest one for a plane, however slanted. A
 /// planar laser sees a section by the plane of its rays, in which n is taken: for a blob of
 /// its hits, which is flat in this plane, the variance is one within it.
+///
+/// Parameters are referred to and must outlive it.
 struct ThicknessLimit {
     /// Standard deviation, besides that of the noise [cell edges at the ray's range,
     /// CellParams::edgeAt], > 0.
@@ -35,6 +39,14 @@ struct ThicknessLimit {
     Eigen::Vector3d inPlaneOfRays(const Eigen::Vector3d& normal) const {
         return normal - normalOfRays * normalOfRays.dot(normal);
     }
+};
+
+/// What is to be thin from the first guess on.
+struct Thinning {
+    ThicknessLimit limit;
+    /// Of the samples, those that a component which is too thick could not explain, rising.
+    std::vector<std::uint32_t> again;
+    double minSupport = 0.0;  ///< [count] nothing is cut into less
 };
 
 }  // namespace hgmm

@@ -36,8 +36,9 @@ struct PoseSearch {
 };
 
 /// The pose at which a pattern search (Hooke and Jeeves 1961) ends: along the axes of the
-/// map and about those of the pose, in steps that are halved where none leads up, and in
-/// strides along what led up before. Uses nothing but values of the score.
+/// map and about those of the pose, through the pivot, too, in steps that are halved where
+/// none leads up, and in strides along what led up before. Uses nothing but values of the
+/// score.
 Pose climb(const PoseScore& score, const Pose& start, const PoseSearch& search);
 
 /// The highest pose found around `centre`: all nodes of a lattice that spans +-reach_m in
