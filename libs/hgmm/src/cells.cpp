@@ -93,41 +93,51 @@ std::optional<std::pair<Part, Part>> halves(const Part& whole, const Mixture<3>&
     return sides;
 }
 
-/// Cuts components that are thicker than the limit in two, until none is: those of doubled
-/// cells with samples that are learnt again.
-/// @param cells of the samples
-/// @param own component of each sample
-void cutThick(const Mixture<3>& samples, const std::vector<LatticeCell>& cells,
-              const CellParams& params, const Thinning& thinning,
-              std::vector<Gaussian<3>>& components, std::vector<std::uint32_t>& own) {
+/// Appends what is left of a part when all that is too thick is cut.
+void cutUntilThin(Part whole, const Mixture<3>& samples, const Thinning& thinning,
+                  std::vector<Part>& thin) {
+    if (auto sides = halves(whole, samples, thinning)) {
+        cutUntilThin(std::move(sides->first), samples, thinning, thin);
+        cutUntilThin(std::move(sides->second), samples, thinning, thin);
+    } else {
+        thin.push_back(std::move(whole));
+    }
+}
+
+/// The components of doubled cells with samples that are learnt again, by their numbers.
+std::map<std::uint32_t, Part> doubledAgain(const Mixture<3>& samples,
+                                           const std::vector<LatticeCell>& cells,
+                                           const Thinning& thinning,
+                                           const std::vector<Gaussian<3>>& components,
+                                           const std::vector<std::uint32_t>& own) {
     std::map<std::uint32_t, Part> doubled;
     for (const std::uint32_t i : thinning.again) {
-        const Gaussian<3> sample = samples[i];
-        const double range = (sample.mean - thinning.limit.sensorOrigin).norm();
+        const double range = (samples[i].mean - thinning.limit.sensorOrigin).norm();
         // Others hold as many samples as they must, and are hardly ever too thick.
-        if (cells[i].octave > octaveOf(params.edgeAt(range)))
+        if (cells[i].octave > octaveOf(thinning.limit.cells.edgeAt(range)))
             doubled[own[i]].moments = components[own[i]];
     }
+    if (doubled.empty()) return doubled;
     for (std::size_t i = 0; i < samples.size(); ++i)
         if (const auto part = doubled.find(own[i]); part != doubled.end())
             part->second.samples.push_back(static_cast<std::uint32_t>(i));
+    return doubled;
+}
 
-    for (auto& [c, part] : doubled) {
-        std::vector<Part> toCut{std::move(part)};
-        for (bool isFirst = true; !toCut.empty();) {
-            Part whole = std::move(toCut.back());
-            toCut.pop_back();
-            if (auto sides = halves(whole, samples, thinning)) {
-                toCut.push_back(std::move(sides->second));
-                toCut.push_back(std::move(sides->first));
-                continue;
-            }
-            // The first one that stays takes the component's place.
-            const auto target = isFirst ? c : static_cast<std::uint32_t>(components.size());
-            if (!isFirst) components.emplace_back();
-            components[target] = whole.moments;
-            for (const std::uint32_t i : whole.samples) own[i] = target;
-            isFirst = false;
+/// Cuts those of them that are thicker than the limit.
+/// @param cells of the samples
+/// @param own component of each sample
+void cutThick(const Mixture<3>& samples, const std::vector<LatticeCell>& cells,
+              const Thinning& thinning, std::vector<Gaussian<3>>& components,
+              std::vector<std::uint32_t>& own) {
+    for (auto& [c, whole] : doubledAgain(samples, cells, thinning, components, own)) {
+        std::vector<Part> thin;
+        cutUntilThin(std::move(whole), samples, thinning, thin);
+        components[c] = thin[0].moments;
+        for (std::size_t k = 1; k < thin.size(); ++k) {
+            for (const std::uint32_t i : thin[k].samples)
+                own[i] = static_cast<std::uint32_t>(components.size());
+            components.push_back(thin[k].moments);
         }
     }
 }
@@ -177,7 +187,7 @@ InitialMixture initialiseFromCells(const Mixture<3>& samples,
         else
             components[own[i]] = mergeMoments(components[own[i]], samples[i]);
     }
-    if (thinning != nullptr) cutThick(samples, cells, params, *thinning, components, own);
+    if (thinning != nullptr) cutThick(samples, cells, *thinning, components, own);
     InitialMixture initial;
     initial.mixture.reserve(components.size());
     for (const Gaussian<3>& c : components) initial.mixture.pushBack(c);
