@@ -11,9 +11,11 @@ function(hgmm_target TARGET)
     target_compile_options(${TARGET} PRIVATE
         -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wno-psabi
         $<$<BOOL:${HGMM_WARNINGS_AS_ERRORS}>:-Werror>)
-    if(CMAKE_UNITY_BUILD)
+    if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
         # Every file is then an included one, whose anonymous namespaces GCC distrusts.
-        target_compile_options(${TARGET} PRIVATE -Wno-subobject-linkage)
+        # Collecting garbage less often spares GCC a tenth of its time, for a tenth more memory.
+        target_compile_options(${TARGET} PRIVATE
+            -Wno-subobject-linkage --param ggc-min-heapsize=1000000)
     endif()
     if(HGMM_SANITIZE)
         target_compile_options(${TARGET} PRIVATE
@@ -61,7 +63,7 @@ function(hgmm_test NAME)
     # What is optimised is what they call; optimised fully, they take twice as long to compile.
     target_compile_options(${NAME} PRIVATE $<$<CONFIG:Release>:-O1>)
     target_link_libraries(${NAME} PRIVATE ${ARG_LIBRARIES} GTest::gtest GTest::gtest_main)
-    if(HGMM_SANITIZE)
+    if(HGMM_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
         # std::regex trips a false alarm of GCC 12 under the sanitizers (GCC bug 105562).
         target_compile_options(${NAME} PRIVATE -Wno-maybe-uninitialized)
     endif()

@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # Installs everything that building, testing and the demo need, from Debian's own packages.
 # Works as root and, with sudo, as a user. Does nothing where all is there already.
+#   scripts/install-deps.sh         for the release build
+#   scripts/install-deps.sh asan    for the sanitized build, too
 set -euo pipefail
 
 packages=(
@@ -13,6 +15,10 @@ packages=(
     # stock MRPT apps and their data, used by the tests and the demo
     mrpt-apps mrpt-common
 )
+if [[ ${1:-} == asan ]]; then
+    # Sanitized, GCC takes longer to compile the code, and the code to run.
+    packages+=(clang libclang-rt-dev libomp-dev)
+fi
 
 missing=()
 for package in "${packages[@]}"; do

@@ -45,7 +45,6 @@ class Explanation {
                 const NoveltyParams& params, const Sighting* sighting)
         : samples_(samples),
           index_(index),
-          params_(params),
           sighting_(sighting),
           maxSquared_(static_cast<float>(params.maxMahalanobis * params.maxMahalanobis)) {}
 
@@ -90,7 +89,6 @@ class Explanation {
  private:
     const Mixture<3>& samples_;
     const ComponentIndex& index_;
-    const NoveltyParams& params_;
     const Sighting* sighting_;
     float maxSquared_;
 };

@@ -38,13 +38,16 @@ constexpr int kFiner = 3;
 /// many, hardly faster to ask [m].
 constexpr double kLeastForCells_m = 0.02;
 
-/// Of a cell half as large as the space around a thin patch: the many small patches share
-/// this size, for each size in use costs a query a look.
-int octaveOfReach(double softeningStd_m, double outlierRatio) {
+/// Cells half as large as the space around a thin patch: the many small patches share this
+/// size, for each size in use costs a query a look.
+BoxIndex::Cells cellsFor(double softeningStd_m, double outlierRatio) {
+    requireInRange("softeningStd_m", softeningStd_m, 0.0, 1e3);
+    requireInRange("outlierRatio", outlierRatio, 1e-9, 1.0 - 1e-9);
     const double reach_m =
         std::max(softeningStd_m, kLeastForCells_m) * reachOf(outlierRatio);
-    return std::clamp(static_cast<int>(std::ceil(std::log2(reach_m))), BoxIndex::kMinOctave,
-                      BoxIndex::kMaxOctave);
+    const int octave = std::clamp(static_cast<int>(std::ceil(std::log2(reach_m))),
+                                  BoxIndex::kMinOctave, BoxIndex::kMaxOctave);
+    return {kFiner, octave};
 }
 
 /// Variance that the softening adds along an axis [m^2]: all of it across what is thinner,
@@ -71,9 +74,7 @@ SurfaceLikelihood::SurfaceLikelihood(const Mixture<3>& mixture, double softening
                                      double outlierRatio)
     : softeningVariance_m2_(softeningStd_m * softeningStd_m),
       outlierRatio_(outlierRatio),
-      boxes_(BoxIndex::Cells{kFiner, octaveOfReach(softeningStd_m, outlierRatio)}) {
-    requireInRange("softeningStd_m", softeningStd_m, 0.0, 1e3);
-    requireInRange("outlierRatio", outlierRatio, 1e-9, 1.0 - 1e-9);
+      boxes_(cellsFor(softeningStd_m, outlierRatio)) {
     reach_ = static_cast<float>(reachOf(outlierRatio));
     tailEnd_ = kernel(reach_ * reach_);
     height_ = (1 - outlierRatio) / (1 - tailEnd_);

@@ -1,4 +1,3 @@
-#include <mrpt/core/initializer.h>
 #include <mrpt/maps/CHGMMOccupancyMap.h>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/serialization/CArchive.h>
@@ -19,9 +18,12 @@ namespace mrpt::maps {
 
 IMPLEMENTS_SERIALIZABLE(CHGMMOccupancyMap, CMetricMap, mrpt::maps)
 
-MRPT_INITIALIZER(registerHgmmMap) {
-    mrpt::rtti::registerClass(CLASS_ID(mrpt::maps::CHGMMOccupancyMap));
-}
+namespace {
+/// Comes after runtimeClassId. MRPT_INITIALIZER runs before it where clang compiled it, and
+/// would register a class without a name.
+[[maybe_unused]] const bool kIsRegistered =
+    (mrpt::rtti::registerClass(CLASS_ID(mrpt::maps::CHGMMOccupancyMap)), true);
+}  // namespace
 
 ::hgmm::Map& CHGMMOccupancyMap::model() {
     likelihood_.invalidate();
