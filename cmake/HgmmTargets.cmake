@@ -51,17 +51,22 @@ function(hgmm_library_includes TARGET)
     install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endfunction()
 
-# A GoogleTest program, each of its cases a ctest case.
+# A GoogleTest program, each of its cases a ctest case; or shares of its cases that run in
+# one process each, for instrumented programs take longer to load than to run most cases.
 # hgmm_test(NAME SOURCES a.cpp ... LIBRARIES lib ... [LABELS ...]
-#     [PRECOMPILE <header> ... | REUSE_PRECOMPILED other_test])
+#     [PRECOMPILE <header> ... | REUSE_PRECOMPILED other_test] [HAS_ORACLES])
+# HAS_ORACLES: the tests themselves compute much, and are optimised in sanitized builds, too.
 function(hgmm_test NAME)
-    cmake_parse_arguments(ARG "" "REUSE_PRECOMPILED" "SOURCES;LIBRARIES;LABELS;PRECOMPILE" ${ARGN})
+    cmake_parse_arguments(ARG "HAS_ORACLES" "REUSE_PRECOMPILED" "SOURCES;LIBRARIES;LABELS;PRECOMPILE" ${ARGN})
     add_executable(${NAME} ${ARG_SOURCES})
     # What tests call is what must be defined; checks in the tests themselves, most of whose
     # code is GoogleTest's and Eigen's, would double the time that they take to compile.
     hgmm_target(${NAME} SANITIZERS address)
     # What is optimised is what they call; optimised fully, they take twice as long to compile.
     target_compile_options(${NAME} PRIVATE $<$<CONFIG:Release>:-O1>)
+    if(HGMM_SANITIZE AND NOT ARG_HAS_ORACLES)
+        target_compile_options(${NAME} PRIVATE -O0)
+    endif()
     target_link_libraries(${NAME} PRIVATE ${ARG_LIBRARIES} GTest::gtest GTest::gtest_main)
     if(HGMM_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
         # std::regex trips a false alarm of GCC 12 under the sanitizers (GCC bug 105562).
@@ -73,6 +78,16 @@ function(hgmm_test NAME)
         hgmm_precompile(${NAME} <gtest/gtest.h> <filesystem> <fstream> <sstream> ${ARG_PRECOMPILE})
     endif()
     set_target_properties(${NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
-    gtest_discover_tests(${NAME} DISCOVERY_MODE PRE_TEST
-        PROPERTIES LABELS "${ARG_LABELS}" SKIP_REGULAR_EXPRESSION "SKIPPED")
+    if(HGMM_TEST_PROCESSES EQUAL 0)
+        gtest_discover_tests(${NAME} DISCOVERY_MODE PRE_TEST
+            PROPERTIES LABELS "${ARG_LABELS}" SKIP_REGULAR_EXPRESSION "SKIPPED")
+        return()
+    endif()
+    math(EXPR LAST "${HGMM_TEST_PROCESSES} - 1")
+    foreach(SHARE RANGE ${LAST})
+        add_test(NAME ${NAME}.${SHARE} COMMAND ${NAME})
+        set_tests_properties(${NAME}.${SHARE} PROPERTIES LABELS "${ARG_LABELS}"
+            ENVIRONMENT
+            "GTEST_TOTAL_SHARDS=${HGMM_TEST_PROCESSES};GTEST_SHARD_INDEX=${SHARE}")
+    endforeach()
 endfunction()

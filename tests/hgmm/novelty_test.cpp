@@ -219,14 +219,19 @@ TEST(Novelty, WhatGivesWayGivesItsFreeSpaceAway) {
     params.contradiction.contradictedKeep = 1.0;
     params.occupancy.freeSpace.freeSpaceModel =
         static_cast<int>(FreeSpaceModel::perComponent);
-    Map map(params);
-    map.insert(bushFrom({-20, 0, 0}, 1));
     std::size_t outgrown = 0;
-    for (unsigned k = 0; k < 3; ++k) {
-        outgrown += map.insert(bushFrom({-2, 0, 0}, 2 + k)).componentsOutgrown;
-        ASSERT_EQ(map.freeMixture().size(), map.mixture().size());
-        for (std::size_t i = 0; i < map.mixture().size(); ++i)
-            EXPECT_NEAR(map.freeMixture().support[i] / map.mixture().support[i], 1, 2e-2);
+    // Some components gain hits and give others away at the same scan.
+    for (unsigned bush = 0; bush < 8; ++bush) {
+        Map map(params);
+        map.insert(bushFrom({-20, 0, 0}, 10 * bush));
+        for (unsigned k = 1; k <= 3; ++k) {
+            outgrown += map.insert(bushFrom({-2, 0, 0}, 10 * bush + k)).componentsOutgrown;
+            const auto& free = map.freeMixture().support;
+            const auto& hits = map.mixture().support;
+            ASSERT_EQ(free.size(), hits.size());
+            for (std::size_t i = 0; i < hits.size(); ++i)
+                EXPECT_NEAR(free[i] / hits[i], 1, 1e-5) << bush << ", " << k << ", " << i;
+        }
     }
     EXPECT_GT(outgrown, 0U);
 }

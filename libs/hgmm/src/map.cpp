@@ -179,6 +179,8 @@ std::vector<RayBundle> Map::insertSurfaces(const Mixture<3>& samples,
         model_.views.set(
             i, merged(model_.views[i], std::max(before, 1e-6),
                       viewFrom(sensorOrigin, bundles[k].mean), bundles[k].support));
+        // Before it gives way: what it loses, it loses of both.
+        if (freePerComponent()) addFreeOfSurface(i, bundles[k], sensorOrigin);
     }
     for (const Loss& loss : giveWay(surfaces, index, samples, split)) {
         // Its free space is that of the same hits.
@@ -203,12 +205,10 @@ std::vector<RayBundle> Map::insertSurfaces(const Mixture<3>& samples,
         bundles.push_back(surfaces[i]);
         model_.views.pushBack(viewFrom(sensorOrigin, bundles.back().mean));
         known.changed.push_back(static_cast<std::uint32_t>(i));
-    }
-    for (std::size_t k = 0; k < known.changed.size(); ++k) {
         if (freePerComponent())
-            addFreeOfSurface(known.changed[k], bundles[k], sensorOrigin);
-        derived_->updateSurface(*this, known.changed[k]);
+            addFreeOfSurface(known.changed.back(), bundles.back(), sensorOrigin);
     }
+    for (const std::uint32_t i : known.changed) derived_->updateSurface(*this, i);
     report.novelSamples = split.novel.size();
     report.componentsAdded = surfaces.size() - before;
     report.componentsUpdated = known.changed.size() - report.componentsAdded;

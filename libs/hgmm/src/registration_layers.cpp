@@ -203,6 +203,17 @@ double TargetLayers::cost(const RegistrationSource& source,
         [](const ComponentPair& pair, double& sum) { sum += pairCost(pair); });
 }
 
+std::vector<double> TargetLayers::costs(const RegistrationSource& source,
+                                        const std::vector<Neighbours>& neighbours,
+                                        const Pose& T_target_centre) const {
+    std::vector<double> costs(source.size(), 0.0);
+    for (std::size_t i = 0; i < source.size(); ++i)
+        forEachPair(
+            source, neighbours, T_target_centre, i, i + 1,
+            [&](const ComponentPair& pair, std::uint32_t) { costs[i] += pairCost(pair); });
+    return costs;
+}
+
 CostSums TargetLayers::sums(const RegistrationSource& source,
                             const std::vector<Neighbours>& neighbours,
                             const Pose& T_target_centre) const {

@@ -89,6 +89,10 @@ class TargetLayers {
 
     double cost(const RegistrationSource& source, const std::vector<Neighbours>& neighbours,
                 const Pose& T_target_centre) const;
+    /// The cost of each source component, in [-Neighbours::kMost, 0].
+    std::vector<double> costs(const RegistrationSource& source,
+                              const std::vector<Neighbours>& neighbours,
+                              const Pose& T_target_centre) const;
     CostSums sums(const RegistrationSource& source,
                   const std::vector<Neighbours>& neighbours,
                   const Pose& T_target_centre) const;

@@ -18,6 +18,8 @@ constexpr double kSmallestStep = 0.01;
 /// Neighbours are chosen for being near, which hides part of their scatter. The factor is
 /// empirical: in simulated rooms the normalised error squared is 2.5 to 10 with it, of 6.
 constexpr double kHiddenScatter = 1.5;
+/// Standard deviations by which the best of several poses is better by chance.
+constexpr double kChance = 2.0;
 constexpr int kMaxHalvings = 6;
 /// Levenberg's damping, as a share of the largest information.
 constexpr double kDamping = 1e-4;
@@ -132,6 +134,19 @@ Vector6d newtonStep(const CostSums& sums, const HeldDirections& held, double wid
     return length_m > width_m ? Vector6d(step * (width_m / length_m)) : step;
 }
 
+/// Whether the costs of all components differ by no more than what counts as nothing, or
+/// than they would by chance.
+bool isAsGood(const std::vector<double>& there, const std::vector<double>& here) {
+    double more = 0.0, scatter = 0.0, matched = 0.0;
+    for (std::size_t i = 0; i < here.size(); ++i) {
+        const double difference = there[i] - here[i];
+        more += difference;
+        scatter += difference * difference;
+        matched -= here[i];
+    }
+    return more <= std::max(kHeldShare * matched, kChance * std::sqrt(scatter));
+}
+
 }  // namespace
 
 Vector6d PosePrior::normalisedError(const Pose& T) const {
@@ -208,9 +223,10 @@ void leaveAsGuessed(const TargetLayers& target, const Reach& reach,
     CostSums quadratic;
     prior.addTo(quadratic, T_target_centre);
     const Pose T_back = moved(T_target_centre, held.stepElsewhere(quadratic));
-    const double cost =
-        target.cost(source, target.associate(source, reach, T_back), T_back);
-    if (cost <= (1.0 - kHeldShare) * sums.cost) T_target_centre = T_back;
+    const auto there =
+        target.costs(source, target.associate(source, reach, T_back), T_back);
+    if (isAsGood(there, target.costs(source, neighbours, T_target_centre)))
+        T_target_centre = T_back;
 }
 
 Matrix6d poseCovariance(const TargetLayers& target, const Reach& reach,

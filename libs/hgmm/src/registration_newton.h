@@ -35,7 +35,7 @@ StageEnd runStage(const TargetLayers& target, const Reach& reach,
                   Pose& T_target_centre, int maxIterations);
 
 /// Takes directions that the target does not hold back to where the prior is highest,
-/// unless the cost says that it does hold them.
+/// unless the cost says, beyond chance, that it does hold them.
 void leaveAsGuessed(const TargetLayers& target, const Reach& reach,
                     const RegistrationSource& source, const PosePrior& prior,
                     Pose& T_target_centre);
