@@ -166,6 +166,50 @@ TEST(Registration, ACorridorLetsSlideAlongIt) {
     }
 }
 
+/// Aligned from `guess` where the truth is the identity: near it, and every direction
+/// known.
+void expectAllHeld(const Mixture<3>& target, const Mixture<3>& source, const Pose& guess) {
+    const Registration found = registerMixtures({&target}, source, guess);
+    const Vector6d error = errorOf(found.T_target_source, Pose());
+    EXPECT_LT(error.head<3>().norm(), 0.2 * kDegree);
+    EXPECT_LT(error.tail<3>().norm(), 0.05);
+    EXPECT_LT(found.covariance.diagonal().maxCoeff(), 1e-2);
+}
+
+TEST(Registration, ALongNarrowViewHoldsItsRoll) {
+    // Rolling about the axis moves little of what is so near to it, but all of it.
+    const auto street = [](std::uint64_t seed) {
+        std::mt19937_64 random(seed);
+        const Eigen::Vector3d x(30, 0, 0), y(0, 1, 0), z(0, 0, 1);
+        Mixture<3> mixture;
+        tile({30, 0, 0}, x, y, 0.5, random, mixture);
+        tile({30, -1, 1}, x, z, 0.5, random, mixture);
+        for (const double at_m : {15, 30, 45, 60})
+            tile({at_m, 0.5, 1}, 0.5 * y, z, 0.25, random, mixture);
+        return mixture;
+    };
+    Pose guess;
+    guess.R = rotationOf({8 * kDegree, 0, 0});
+    expectAllHeld(street(1), street(2), guess);
+}
+
+TEST(Registration, FarWallsHoldBesideNearGround) {
+    const auto square = [](std::uint64_t seed) {
+        std::mt19937_64 random(seed);
+        const Eigen::Vector3d x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+        Mixture<3> mixture;
+        tile({0, 0, 0}, 5 * x, 5 * y, 0.4, random, mixture);
+        tile({60, 0, 2}, 4 * y, 2 * z, 1.0, random, mixture);
+        tile({0, 60, 2}, 4 * x, 2 * z, 1.0, random, mixture);
+        tile({60, -30, 2}, 4 * x, 2 * z, 1.0, random, mixture);
+        return mixture;
+    };
+    Pose guess;
+    guess.R = rotationOf({0, 0, 2 * kDegree});
+    guess.t = {0.3, -0.2, 0.1};
+    expectAllHeld(square(1), square(2), guess);
+}
+
 /// Patches whose places along their normals are off by `std_m`.
 Mixture<3> noisy(const Mixture<3>& mixture, double std_m, std::mt19937_64& random) {
     Mixture<3> result;

@@ -40,9 +40,9 @@ Vector6d addPair(const ComponentPair& pair, CostSums& sums) {
     const Vector6d gradient = peak * slope;
 
     sums.cost -= peak;
-    sums.facing += peak / (pair.width_m * pair.width_m);
     sums.gradient += gradient;
     sums.gaussNewton += gaussNewton;
+    sums.facing += pair.width_m * pair.width_m * gaussNewton;
     sums.hessian += gaussNewton - gradient * slope.transpose();
     sums.hessian.topLeftCorner<3, 3>() +=
         peak * (0.5 * (y * u.transpose() + u * y.transpose()) -

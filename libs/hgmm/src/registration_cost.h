@@ -13,9 +13,10 @@ struct CostSums {
     Vector6d gradient = Vector6d::Zero();
     Matrix6d hessian = Matrix6d::Zero();
     Matrix6d gaussNewton = Matrix6d::Zero();  ///< its positive semi-definite part
-    /// Sum of the pairs' costs over the squares of their widths, negated: the information
-    /// [1/m^2] that there would be in a direction if all surfaces faced it.
-    double facing = 0.0;
+    /// gaussNewton of each pair times the square of its width: whatever the widths, a pair
+    /// that faces a direction adds as much to it as to the cost, or less. Near pairs, which
+    /// are narrow, would outweigh far ones in gaussNewton itself.
+    Matrix6d facing = Matrix6d::Zero();
 
     CostSums& operator+=(const CostSums& o);
 };

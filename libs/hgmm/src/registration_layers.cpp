@@ -37,6 +37,17 @@ Eigen::Matrix3d widenedShape(const Eigen::Matrix3d& axes, const Eigen::Vector3d&
     return axes * sum.asDiagonal() * axes.transpose();
 }
 
+/// Square root of the moments of inertia of points with these second moments [m^2], at
+/// least `shortest_m`.
+Eigen::Matrix3d leversOf(const Eigen::Matrix3d& moments, double shortest_m) {
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+    eigen.computeDirect(moments);
+    const Eigen::Vector3d about =
+        Eigen::Vector3d::Constant(moments.trace()) - eigen.eigenvalues();
+    const Eigen::Vector3d levers = about.cwiseMax(shortest_m * shortest_m).cwiseSqrt();
+    return eigen.eigenvectors() * levers.asDiagonal() * eigen.eigenvectors().transpose();
+}
+
 /// Keeps the nearest of the components within reach of p, equally near ones in the index'
 /// order.
 void findNearest(const ComponentIndex& index, const Eigen::Vector3f& p, Neighbours& found) {
@@ -69,12 +80,15 @@ RegistrationSource::RegistrationSource(const Mixture<3>& mixture) {
     if (mean.empty()) return;
     centre /= double(mean.size());
     double sum = 0.0;
-    for (Eigen::Vector3d& m : mean) {
-        m -= centre;
-        sum += m.squaredNorm();
+    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+        mean[i] -= centre;
+        sum += mean[i].squaredNorm();
+        moments += mean[i] * mean[i].transpose() + covariance[i];
     }
     constexpr double kShortest_m = 0.1;  // a single component turns about itself
     lever_m = std::max(std::sqrt(sum / double(mean.size())), kShortest_m);
+    levers = leversOf(moments / double(mean.size()), kShortest_m);
 }
 
 double RegistrationSource::shareOf(const std::vector<Neighbours>& neighbours) const {
@@ -90,6 +104,7 @@ RegistrationSource RegistrationSource::thinned(double cell_m) const {
     RegistrationSource few;
     few.centre = centre;
     few.lever_m = lever_m;
+    few.levers = levers;
     std::set<std::array<std::int64_t, 3>> taken;
     for (std::size_t i = 0; i < size(); ++i) {
         std::array<std::int64_t, 3> cell;

@@ -36,7 +36,10 @@ struct RegistrationSource {
 
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the means [m]
     double lever_m = 0.0;                              ///< their rms distance from it, > 0
-    std::vector<Eigen::Vector3d> mean;                 ///< less the centre
+    /// Positive definite [m]: a small rotation w about the centre, in the source's axes,
+    /// moves the components' points by |levers w|, rms.
+    Eigen::Matrix3d levers = Eigen::Matrix3d::Identity();
+    std::vector<Eigen::Vector3d> mean;  ///< less the centre
     std::vector<Eigen::Matrix3d> covariance;
     std::vector<double> support;  ///< [count]
 

@@ -10,8 +10,8 @@ namespace hgmm {
 
 namespace {
 
-/// A direction is held if its information is more than this share of what components facing
-/// it would give: what is below comes from the patches' bounds, not from surfaces.
+/// A direction is held if more than this share of the components face it: what is below
+/// comes from the patches' bounds, not from surfaces.
 constexpr double kHeldShare = 0.01;
 /// A stage ends when a step moves the source by less than this share of the width.
 constexpr double kSmallestStep = 0.01;
@@ -48,31 +48,34 @@ Matrix6d diagonalise(Matrix6d& m) {
 }
 
 /// What the target holds, in coordinates in which rotation counts as the way of the
-/// source's components: (lever w, v).
+/// source's components: (levers w, v). About an axis along which they lie that way is
+/// short.
 class HeldDirections {
  public:
-    HeldDirections(const Matrix6d& gaussNewton, double facing, double lever_m) {
-        scale_ << Eigen::Vector3d::Constant(1.0 / lever_m), Eigen::Vector3d::Ones();
-        Matrix6d diagonal = scaled(gaussNewton);
-        const Matrix6d axes = diagonalise(diagonal);
-        // A flat component at rest gives 1 / width^2 or less along its normal.
-        const double held = kHeldShare * facing;
+    HeldDirections(const CostSums& sums, const RegistrationSource& source,
+                   const Eigen::Matrix3d& R_target_source) {
+        const Eigen::Matrix3d levers =
+            R_target_source * source.levers * R_target_source.transpose();
+        unscale_.topLeftCorner<3, 3>() = levers;
+        scale_.topLeftCorner<3, 3>() = levers.inverse();
+        Matrix6d facing = scaled(sums.facing);
+        const Matrix6d axes = diagonalise(facing);
         for (int k = 0; k < 6; ++k) {
-            const double information = diagonal(k, k);
-            if (!(information > held)) continue;
-            const Vector6d axis = axes.col(k);
-            projector_ += axis * axis.transpose();
-            inverse_ += axis * axis.transpose() / information;
-            largest_ = std::max(largest_, information);
+            if (!(facing(k, k) > -kHeldShare * sums.cost)) continue;
+            projector_ += axes.col(k) * axes.col(k).transpose();
             ++count_;
         }
+        largest_ = projected(sums.gaussNewton, 0.0).norm();
     }
 
     int count() const { return count_; }
-    /// The largest information in a direction [1/m^2].
+    /// As large as the largest information in a direction, or a little larger [1/m^2].
     double largest() const { return largest_; }
-    /// Inverse of the information; zero in directions that are not held.
-    const Matrix6d& inverse() const { return inverse_; }
+    /// Inverse of an information in these coordinates; zero in directions that are not
+    /// held.
+    Matrix6d inverse(const Matrix6d& information) const {
+        return projector_ * projected(information, largest_).ldlt().solve(projector_);
+    }
     /// A matrix of second derivatives in these coordinates; `elsewhere` times the identity
     /// in directions that are not held.
     Matrix6d projected(const Matrix6d& m, double elsewhere) const {
@@ -80,34 +83,30 @@ class HeldDirections {
                elsewhere * (Matrix6d::Identity() - projector_);
     }
     /// A gradient in these coordinates.
-    Vector6d projected(const Vector6d& v) const {
-        return projector_ * scale_.cwiseProduct(v);
-    }
+    Vector6d projected(const Vector6d& v) const { return projector_ * scale_ * v; }
     /// The step that takes directions that are not held to the minimum of a quadratic cost
     /// of that gradient and curvature by (w, v).
     Vector6d stepElsewhere(const CostSums& quadratic) const {
         const Matrix6d free = Matrix6d::Identity() - projector_;
         const Matrix6d curvature = free * scaled(quadratic.hessian) * free + projector_;
-        const Vector6d slope = free * scale_.cwiseProduct(quadratic.gradient);
+        const Vector6d slope = free * scale_ * quadratic.gradient;
         return step(-free * curvature.ldlt().solve(slope));
     }
     /// (w, v) of a step in these coordinates.
-    Vector6d step(const Vector6d& v) const { return scale_.cwiseProduct(v); }
+    Vector6d step(const Vector6d& v) const { return scale_ * v; }
     /// Covariance of (w, v) from that in the held directions; the others are unknown.
     Matrix6d covariance(const Matrix6d& held) const {
-        const Vector6d unknown =
-            unobservableCovariance().diagonal().cwiseQuotient(scale_.cwiseProduct(scale_));
+        const Matrix6d unknown = unscale_ * unobservableCovariance() * unscale_;
         const Matrix6d free = Matrix6d::Identity() - projector_;
-        return scaled(held + free * unknown.asDiagonal() * free);
+        return scaled(held + free * unknown * free);
     }
 
  private:
-    Matrix6d scaled(const Matrix6d& m) const {
-        return scale_.asDiagonal() * m * scale_.asDiagonal();
-    }
+    // Symmetric, as both factors are.
+    Matrix6d scaled(const Matrix6d& m) const { return scale_ * m * scale_; }
 
-    Vector6d scale_;
-    Matrix6d projector_ = Matrix6d::Zero(), inverse_ = Matrix6d::Zero();
+    Matrix6d scale_ = Matrix6d::Identity(), unscale_ = Matrix6d::Identity();
+    Matrix6d projector_ = Matrix6d::Zero();
     double largest_ = 0.0;
     int count_ = 0;
 };
@@ -191,7 +190,7 @@ StageEnd runStage(const TargetLayers& target, const Reach& reach,
         CostSums sums = target.sums(source, neighbours, T_target_centre);
         end.cost = source.size() == 0 ? 0.0 : sums.cost / double(source.size());
         if (!(sums.cost < 0.0)) return end;
-        const HeldDirections held(sums.gaussNewton, sums.facing, lever_m);
+        const HeldDirections held(sums, source, T_target_centre.R);
         if (held.count() == 0) return end;
         prior.addTo(sums, T_target_centre);
         ++end.iterations;
@@ -218,7 +217,7 @@ void leaveAsGuessed(const TargetLayers& target, const Reach& reach,
                     Pose& T_target_centre) {
     const auto neighbours = target.associate(source, reach, T_target_centre);
     const CostSums sums = target.sums(source, neighbours, T_target_centre);
-    const HeldDirections held(sums.gaussNewton, sums.facing, source.lever_m);
+    const HeldDirections held(sums, source, T_target_centre.R);
     if (held.count() == 0 || held.count() == 6) return;
     CostSums quadratic;
     prior.addTo(quadratic, T_target_centre);
@@ -233,7 +232,7 @@ Matrix6d poseCovariance(const TargetLayers& target, const Reach& reach,
                         const RegistrationSource& source, const Pose& T_target_centre) {
     const auto neighbours = target.associate(source, reach, T_target_centre);
     const CostSums sums = target.sums(source, neighbours, T_target_centre);
-    const HeldDirections held(sums.gaussNewton, sums.facing, source.lever_m);
+    const HeldDirections held(sums, source, T_target_centre.R);
     if (!(sums.cost < 0.0) || held.count() == 0) return unobservableCovariance();
     // Few components scatter little by chance: as many more as there are unknowns, of the
     // scatter that the cost itself supposes, keep the result positive definite.
@@ -242,7 +241,8 @@ Matrix6d poseCovariance(const TargetLayers& target, const Reach& reach,
         Matrix6d(target.gradientScatter(source, neighbours, T_target_centre) +
                  (6.0 / matched) * sums.gaussNewton),
         0.0);
-    return held.covariance(kHiddenScatter * held.inverse() * scatter * held.inverse());
+    const Matrix6d inverse = held.inverse(sums.gaussNewton);
+    return held.covariance(kHiddenScatter * inverse * scatter * inverse);
 }
 
 Matrix6d unobservableCovariance() {
