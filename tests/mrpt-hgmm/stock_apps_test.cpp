@@ -238,6 +238,9 @@ TEST_F(StockApps, WithoutThePluginTheMapIsUnknown) {
     edit("pf-localization.ini", "KLD_maxSampleSize *=.*", "KLD_maxSampleSize = 500");
     const auto result =
         stock_app::run("pf-localization pf-localization.ini", folder, 60, false);
+    EXPECT_EQ(result.exitCode, 0) << tail(result.output);
+    EXPECT_NE(result.output.find("PDF estimation"), std::string::npos)
+        << tail(result.output);
     EXPECT_EQ(result.output.find("CHGMMOccupancyMap"), std::string::npos);
     for (const auto& entry : fs::recursive_directory_iterator(folder))
         EXPECT_NE(entry.path().extension(), ".hgmm");

@@ -94,6 +94,8 @@ class HeldDirections {
     }
     /// (w, v) of a step in these coordinates.
     Vector6d step(const Vector6d& v) const { return scale_ * v; }
+    /// How far a step (w, v) moves the source's components, about [m].
+    double lengthOf(const Vector6d& step) const { return (unscale_ * step).norm(); }
     /// Covariance of (w, v) from that in the held directions; the others are unknown.
     Matrix6d covariance(const Matrix6d& held) const {
         const Matrix6d unknown = unscale_ * unobservableCovariance() * unscale_;
@@ -115,21 +117,15 @@ Pose moved(const Pose& T, const Vector6d& step) {
     return {rotationOf(step.head<3>()) * T.R, T.t + step.tail<3>()};
 }
 
-/// How far a step moves the source's components, about [m].
-double lengthOf(const Vector6d& step, double lever_m) {
-    return std::hypot(lever_m * step.head<3>().norm(), step.tail<3>().norm());
-}
-
 /// Newton's step in the held directions, no longer than the stage's width.
-Vector6d newtonStep(const CostSums& sums, const HeldDirections& held, double width_m,
-                    double lever_m) {
+Vector6d newtonStep(const CostSums& sums, const HeldDirections& held, double width_m) {
     const double largest = held.largest();
     const Matrix6d damping = kDamping * largest * Matrix6d::Identity();
     Eigen::LLT<Matrix6d> curvature(held.projected(sums.hessian, largest) + damping);
     if (curvature.info() != Eigen::Success)
         curvature.compute(held.projected(sums.gaussNewton, largest) + damping);
     const Vector6d step = held.step(-curvature.solve(held.projected(sums.gradient)));
-    const double length_m = lengthOf(step, lever_m);
+    const double length_m = held.lengthOf(step);
     return length_m > width_m ? Vector6d(step * (width_m / length_m)) : step;
 }
 
@@ -181,8 +177,7 @@ void PosePrior::addTo(CostSums& sums, const Pose& T_target_centre) const {
 StageEnd runStage(const TargetLayers& target, const Reach& reach,
                   const RegistrationSource& source, const PosePrior& prior,
                   Pose& T_target_centre, int maxIterations) {
-    const double lever_m = source.lever_m, width_m = reach.at(lever_m),
-                 smallest_m = kSmallestStep * width_m;
+    const double width_m = reach.at(source.lever_m), smallest_m = kSmallestStep * width_m;
     StageEnd end;
     while (end.iterations < maxIterations && !end.converged) {
         const auto neighbours = target.associate(source, reach, T_target_centre);
@@ -195,9 +190,9 @@ StageEnd runStage(const TargetLayers& target, const Reach& reach,
         prior.addTo(sums, T_target_centre);
         ++end.iterations;
 
-        Vector6d step = newtonStep(sums, held, width_m, lever_m);
+        Vector6d step = newtonStep(sums, held, width_m);
         for (int halvings = 0;; ++halvings, step *= 0.5) {
-            if (lengthOf(step, lever_m) < smallest_m || halvings > kMaxHalvings) {
+            if (held.lengthOf(step) < smallest_m || halvings > kMaxHalvings) {
                 end.converged = true;
                 break;
             }
