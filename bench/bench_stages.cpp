@@ -2,9 +2,10 @@
 //   build/bin/bench-hgmm
 #include <benchmark/benchmark.h>
 
+#include "fusion/update.h"
+#include "hgmm/hierarchy.h"
+#include "hgmm/likelihood.h"
 #include "hgmm/map.h"
-#include "hgmm/surface_likelihood.h"
-#include "hgmm/update.h"
 #include "room_scanner.h"
 
 namespace {

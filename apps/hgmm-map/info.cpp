@@ -6,7 +6,7 @@
 
 #include "commands.h"
 #include "hgmm/evaluation/memory.h"
-#include "hgmm/map_params.h"
+#include "hgmm/params.h"
 #include "load.h"
 
 namespace maptool {

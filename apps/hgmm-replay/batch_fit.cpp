@@ -9,29 +9,14 @@
 #include <utility>
 #include <vector>
 
-#include "hgmm/component_index.h"
-
 namespace replay {
 namespace {
 
-using hgmm::ComponentIndex;
-
-/// As far as the first guess of a scan's mixture lets samples see
-/// (hgmm::findNeighbourhoods).
-constexpr float kNeighbourSigmas = 6.F;
+/// As far as the first guess of a scan's mixture lets samples see.
+constexpr double kNeighbourSigmas = 6;
 
 constexpr int kRounds = 3;              ///< of finding neighbourhoods
 constexpr int kIterationsPerRound = 5;  ///< of EM
-
-std::uint32_t likeliest(const ComponentIndex& index, const float* point) {
-    std::uint32_t best = 0;
-    float bestLogPdf = -std::numeric_limits<float>::infinity();
-    for (std::uint32_t j = 0; j < index.size(); ++j) {
-        const float logPdf = index.factor(j).logPdf(point);
-        if (logPdf > bestLogPdf) bestLogPdf = logPdf, best = j;
-    }
-    return best;
-}
 
 /// Two parts of a Gaussian as of an even spread that is cut in the middle of its longest
 /// axis: centres sqrt(3)/2 sigma away from it, a quarter of the variance each.
@@ -50,29 +35,6 @@ std::pair<hgmm::Gaussian<3>, hgmm::Gaussian<3>> halves(const hgmm::Gaussian<3>& 
 }
 
 }  // namespace
-
-hgmm::Neighbourhoods neighbourhoodsIn(const hgmm::Mixture<3>& mixture,
-                                      const hgmm::Mixture<3>& samples) {
-    if (mixture.empty()) throw std::invalid_argument("no neighbours in an empty mixture");
-    ComponentIndex index(kNeighbourSigmas);
-    index.rebuild(mixture);
-    hgmm::Neighbourhoods result;
-    result.begin.push_back(0);
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        const float p[3] = {samples.mean[0][i], samples.mean[1][i], samples.mean[2][i]};
-        const auto first = static_cast<std::ptrdiff_t>(result.component.size());
-        index.visitCandidates(p[0], p[1], p[2], [&](std::uint32_t j) {
-            if (index.factor(j).squaredMahalanobis(p) <=
-                kNeighbourSigmas * kNeighbourSigmas)
-                result.component.push_back(j);
-        });
-        if (result.component.size() == result.begin.back())
-            result.component.push_back(likeliest(index, p));
-        std::sort(result.component.begin() + first, result.component.end());
-        result.begin.push_back(static_cast<std::uint32_t>(result.component.size()));
-    }
-    return result;
-}
 
 hgmm::Mixture<3> batchGuess(const SamplePool& pool, std::size_t size,
                             const hgmm::HierarchyParams& params) {
@@ -113,9 +75,11 @@ hgmm::Mixture<3> batchFit(const hgmm::Mixture<3>& samples, const hgmm::Mixture<3
     hgmm::Mixture<3> mixture = initial;
     for (int round = 0; round < kRounds; ++round) {
         mixture = splitToSize(mixture, size);
-        mixture = hgmm::fitSparse(samples, mixture, neighbourhoodsIn(mixture, samples),
-                                  {kIterationsPerRound, 0.0})
-                      .mixture;
+        mixture =
+            hgmm::fitSparse(samples, mixture,
+                            hgmm::neighbourhoodsOf(samples.mean, mixture, kNeighbourSigmas),
+                            {kIterationsPerRound, 0.0})
+                .mixture;
     }
     return mixture;
 }

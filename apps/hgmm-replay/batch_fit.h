@@ -8,11 +8,6 @@
 
 namespace replay {
 
-/// For each sample the components within 6 sigma of its mean, or the likeliest of all where
-/// there are none. Throws std::invalid_argument for an empty mixture.
-hgmm::Neighbourhoods neighbourhoodsIn(const hgmm::Mixture<3>& mixture,
-                                      const hgmm::Mixture<3>& samples);
-
 /// A first guess of a mixture of all samples: the moments of the samples in each cell of
 /// the coarsest grid with at least `size` cells, merged down to at most `size` components.
 hgmm::Mixture<3> batchGuess(const SamplePool& pool, std::size_t size,

@@ -7,8 +7,10 @@
 
 #include "fidelity_report.h"
 #include "hgmm/divergence.h"
-#include "hgmm/filter.h"
+#include "hgmm/em.h"
+#include "hgmm/hierarchy.h"
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
+#include "hgmm/scan.h"
 #include "interrupt.h"
 #include "progress.h"
 

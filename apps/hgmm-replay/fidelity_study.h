@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "hgmm/evaluation/recording.h"
-#include "hgmm/map_params.h"
+#include "hgmm/params.h"
 #include "options.h"
 
 namespace replay {

@@ -8,14 +8,12 @@
 #include <stdexcept>
 
 #include "batch_fit.h"
-#include "hgmm/component_index.h"
 #include "hgmm/evaluation/likelihood.h"
 #include "hgmm/evaluation/metrics_json.h"
 #include "hgmm/evaluation/range_noise.h"
-#include "hgmm/filter.h"
-#include "hgmm/gaps.h"
 #include "hgmm/gaussian.h"
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
+#include "hgmm/scan.h"
 #include "interrupt.h"
 #include "map_setup.h"
 #include "progress.h"
@@ -52,28 +50,26 @@ SamplePool poolSamples(Recording& recording, const hgmm::Map& map, const Options
                           recorded->index);
         const hgmm::Pose T_local_sensor{mapping.T_map_sensor.R,
                                         mapping.T_map_sensor.t - map.origin()};
-        hgmm::Mixture<3> samples_sensor = hgmm::filterScan(mapping, filter);
-        hgmm::bridgeGaps(samples_sensor, map.params().cells);
-        pool.add(hgmm::transformed(samples_sensor, T_local_sensor));
+        pool.add(hgmm::transformed(hgmm::samplesOf(mapping, map.params()).samples_sensor,
+                                   T_local_sensor));
     }
     return pool;
 }
 
-/// Of hits under a mixture in the local frame, components being left out where
-/// hgmm::Map::logDensity leaves them out.
+/// Of hits under a mixture in the local frame, components farther than kReachSigmas being
+/// left out as in hgmm::Map::logDensity.
 double logLikelihoodOf(const hgmm::Mixture<3>& mixture, const Eigen::Vector3d& origin,
                        const Points& hits_map) {
-    hgmm::ComponentIndex index;
-    index.rebuild(mixture);
+    std::vector<hgmm::WhitenedGaussian<3>> factors;
+    for (std::size_t j = 0; j < mixture.size(); ++j) factors.emplace_back(mixture[j]);
     const double logTotal = std::log(mixture.totalSupport());
     const auto logDensity = [&](const Eigen::Vector3d& point_map) {
-        const Eigen::Vector3f p = (point_map - origin).cast<float>();
+        const Eigen::Vector3d p = point_map - origin;
         double density = -std::numeric_limits<double>::infinity();
-        index.visitCandidates(p.x(), p.y(), p.z(), [&](std::uint32_t j) {
-            density =
-                hgmm::logAddExp(density, std::log(double(mixture.support[j])) +
-                                             double(index.factor(j).logPdf(p.data())));
-        });
+        for (std::size_t j = 0; j < factors.size(); ++j)
+            if (factors[j].isWithin(p.data(), hgmm::kReachSigmas * hgmm::kReachSigmas))
+                density = hgmm::logAddExp(density, std::log(double(mixture.support[j])) +
+                                                       factors[j].logPdf(p.data()));
         return density - logTotal;
     };
     return heldOutLogLikelihood(logDensity, hits_map);

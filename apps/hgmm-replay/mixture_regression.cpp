@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "hgmm/cells.h"
 #include "hgmm/em.h"
 #include "hgmm/hierarchy.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "hgmm/conditional.h"
+#include "hgmm/regression.h"
 #include "mixture_regression.h"
 #include "noisy_sine.h"
 #include "regression_report.h"

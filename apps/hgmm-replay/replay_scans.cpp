@@ -41,8 +41,8 @@ std::string nameOf(const std::string& specification, const Baseline& map) {
     return specification + format(":%g", options.front().second);
 }
 
-std::vector<ReplayedBaseline> makeBaselines(const Options& options, SensorKind sensor) {
-    std::vector<ReplayedBaseline> baselines;
+std::vector<ReplayedBaseline> makeBaselines(const Options& options, SensorKind sensor,
+                                            std::vector<ReplayedBaseline> baselines) {
     for (const std::string& specification : options.baselines) {
         std::unique_ptr<Baseline> map = makeBaseline(specification, sensor);
         const std::string name = nameOf(specification, *map);
@@ -56,16 +56,17 @@ std::vector<ReplayedBaseline> makeBaselines(const Options& options, SensorKind s
 
 /// Empty maps, and how they are to be tested.
 Replayed prepare(const Recording& recording,
-                 std::unique_ptr<mrpt::maps::CHGMMOccupancyMap> map,
-                 const Options& options) {
+                 std::unique_ptr<mrpt::maps::CHGMMOccupancyMap> map, const Options& options,
+                 std::vector<ReplayedBaseline> others) {
     const NearBand near = options.near.value_or(nearBandOf(recording.sensor()));
-    Replayed replayed{std::move(map),
-                      makeBaselines(options, sensorKindOf(recording.sensor())),
-                      {},
-                      TestPoints(options.split.seed, near, options.free),
-                      {},
-                      {},
-                      {}};
+    Replayed replayed{
+        std::move(map),
+        makeBaselines(options, sensorKindOf(recording.sensor()), std::move(others)),
+        {},
+        TestPoints(options.split.seed, near, options.free),
+        {},
+        {},
+        {}};
     Run& run = replayed.run;
     run.dataset = std::filesystem::path(options.log).stem().string();
     run.sensor = recording.sensor();
@@ -128,8 +129,8 @@ void useScan(hgmm::Scan scan, std::size_t index, const Sampling& sampling,
 
 Replayed replayScans(Recording& recording,
                      std::unique_ptr<mrpt::maps::CHGMMOccupancyMap> map,
-                     const Options& options) {
-    Replayed replayed = prepare(recording, std::move(map), options);
+                     const Options& options, std::vector<ReplayedBaseline> others) {
+    Replayed replayed = prepare(recording, std::move(map), options, std::move(others));
     Run& run = replayed.run;
     const Sampling sampling(recording.size());
     std::size_t points = 0;

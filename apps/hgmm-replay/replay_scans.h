@@ -39,10 +39,10 @@ struct Replayed {
     std::vector<double> conversion_ms;   ///< observation to scan, of every scan
 };
 
-/// Inserts the mapping scans, in the map and in baselines, and collects the test points,
-/// until the end or Ctrl-C.
+/// Inserts the mapping scans, in the map, in `others` and in the baselines of `options`,
+/// and collects the test points, until the end or Ctrl-C.
 Replayed replayScans(hgmm::evaluation::Recording& recording,
                      std::unique_ptr<mrpt::maps::CHGMMOccupancyMap> map,
-                     const Options& options);
+                     const Options& options, std::vector<ReplayedBaseline> others = {});
 
 }  // namespace replay

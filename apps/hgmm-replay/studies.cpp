@@ -88,10 +88,10 @@ std::vector<Study> makeStudies() {
          once(realtimeStudy),
          {}},
         {"free-space",
-         "both models of free space side by side; the thesis' own is slow on large maps: "
+         "the map's free space beside the thesis' own, which is slow on large maps: "
          "begin with --to 50",
          Needs::testPoints,
-         freeSpaceStudy,
+         once(freeSpaceStudy),
          {}},
         {"room",
          "shares of right answers in a noiseless box room; add noise with --range-noise S",

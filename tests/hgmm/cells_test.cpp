@@ -1,11 +1,11 @@
-#include "hgmm/cells.h"
+#include "scan/cells.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "hgmm/filter.h"
+#include "hgmm/scan.h"
 #include "room_scanner.h"
 
 namespace hgmm {

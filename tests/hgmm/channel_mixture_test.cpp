@@ -1,4 +1,4 @@
-#include "hgmm/channel_mixture.h"
+#include "modality/channel_mixture.h"
 
 #include <gtest/gtest.h>
 

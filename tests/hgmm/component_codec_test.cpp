@@ -1,4 +1,4 @@
-#include "../../libs/hgmm/src/component_codec.h"
+#include "io/component_codec.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <iostream>
 
-#include "../../libs/hgmm/src/storable.h"
-#include "hgmm/conditional.h"
+#include "hgmm/regression.h"
+#include "mixture/regularized.h"
 #include "planted_mixture.h"
 
 namespace hgmm {
@@ -25,11 +25,11 @@ Gaussian<3> randomSurface(std::mt19937_64& engine, double maxRatio) {
     const double scale = std::exp(uniform(engine, std::log(0.01), std::log(20.0)));
     g.covariance = scale * scale * randomCovariance<3>(engine, maxRatio);
     g.covariance.diagonal().array() += 1e-6;
-    return storable(g);
+    return regularized(g);
 }
 
-View randomView(std::mt19937_64& engine) {
-    View view;
+ViewDirection randomView(std::mt19937_64& engine) {
+    ViewDirection view;
     if (engine() % 20 == 0) return view;
     view.direction = Eigen::Vector3d(normal(engine), normal(engine), normal(engine));
     if (engine() % 20 == 0) view.direction = -Eigen::Vector3d::Unit(engine() % 3);
@@ -41,7 +41,7 @@ View randomView(std::mt19937_64& engine) {
 /// A plane or needle of 1 mm by 1 m in one of many orientations, or a random component.
 struct Surfaces {
     Mixture<3> mixture;
-    Views views;
+    ViewDirections views;
 
     explicit Surfaces(std::size_t n, double maxRatio, std::uint64_t seed) {
         std::mt19937_64 engine(seed);
@@ -55,7 +55,7 @@ struct Surfaces {
                         .normalized()
                         .toRotationMatrix();
                 g.covariance = axes * sigma.cwiseAbs2().asDiagonal() * axes.transpose();
-                g = storable(g);
+                g = regularized(g);
             }
             mixture.pushBack(g);
             views.pushBack(randomView(engine));
@@ -63,7 +63,7 @@ struct Surfaces {
     }
 };
 
-std::vector<std::uint8_t> encoded(const Mixture<3>& mixture, const Views& views) {
+std::vector<std::uint8_t> encoded(const Mixture<3>& mixture, const ViewDirections& views) {
     std::vector<std::uint8_t> bytes;
     encodeSurfaces(mixture, views, blockOrder(mixture), bytes);
     return bytes;
@@ -74,7 +74,7 @@ TEST(ComponentCodec, SurfacesEncodeToTheSameBytesAgain) {
         const Surfaces original(20000, ratio, 1);
         const auto bytes = encoded(original.mixture, original.views);
         Mixture<3> mixture;
-        Views views;
+        ViewDirections views;
         ASSERT_EQ(decodeSurfaces(bytes.data(), bytes.size(), mixture, views), bytes.size());
         mixture.check();
         EXPECT_EQ(mixture.size(), original.mixture.size());
@@ -93,7 +93,7 @@ TEST(ComponentCodec, SurfaceErrorsAreWithinTheTable) {
     double worstMean = 0, worstSigma = 0, worstSupport = 0, worstAngle = 0, worstRange = 0;
     for (int i = 0; i < 5000; ++i) {
         Mixture<3> one, back;
-        Views view, backView;
+        ViewDirections view, backView;
         one.pushBack(randomSurface(engine, 100));
         view.pushBack(randomView(engine));
         const auto bytes = encoded(one, view);
@@ -125,7 +125,7 @@ TEST(ComponentCodec, SurfaceErrorsAreWithinTheTable) {
 
 TEST(ComponentCodec, NegativeBlocksAndExtremesStayFinite) {
     Mixture<3> mixture, back;
-    Views views, backViews;
+    ViewDirections views, backViews;
     for (const double p : {-1e3, -16.0, -1e-9, 0.0, 15.9999999, 16.0, 1e3})
         for (const double sigma : {1e-6, 1e-3, 1e3}) {
             Gaussian<3> g;
@@ -164,7 +164,7 @@ Gaussian<4> randomFree(std::mt19937_64& engine) {
     g.covariance.topRightCorner<3, 1>() = cross;
     g.covariance.bottomLeftCorner<1, 3>() = cross.transpose();
     g.covariance(3, 3) = slope.dot(cross) + residual * residual;
-    return storable(g);
+    return regularized(g);
 }
 
 TEST(ComponentCodec, FreeSpaceEncodesToTheSameBytesAgain) {
@@ -210,7 +210,7 @@ TEST(ComponentCodec, EveryTruncationThrows) {
     const auto bytes = encoded(original.mixture, original.views);
     for (std::size_t size = 0; size < bytes.size(); ++size) {
         Mixture<3> mixture;
-        Views views;
+        ViewDirections views;
         EXPECT_THROW(decodeSurfaces(bytes.data(), size, mixture, views), std::out_of_range);
     }
     // A count that promises more than there is.
@@ -226,7 +226,7 @@ TEST(ComponentCodec, NothingGivesNothing) {
     const auto bytes = encoded({}, {});
     EXPECT_EQ(bytes.size(), 4U);
     Mixture<3> mixture;
-    Views views;
+    ViewDirections views;
     EXPECT_EQ(decodeSurfaces(bytes.data(), bytes.size(), mixture, views), 4U);
     EXPECT_TRUE(mixture.empty());
 }

@@ -1,4 +1,4 @@
-#include "hgmm/component_index.h"
+#include "index/component_index.h"
 
 #include <gtest/gtest.h>
 
@@ -76,7 +76,8 @@ TEST(ComponentIndex, FollowsChangesAndRemovals) {
                 index.update(mixture, i);
             } else {
                 mixture.removeSwap(i);
-                index.removeSwap(i);
+                index.truncate(mixture.size());
+                if (i < mixture.size()) index.update(mixture, i);
             }
         }
     }

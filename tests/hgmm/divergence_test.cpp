@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "hgmm/gaussian.h"
-#include "hgmm/sample.h"
+#include "hgmm/sampling.h"
 #include "planted_mixture.h"
 
 namespace hgmm::test {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <iostream>
 
-#include "hgmm/cells.h"
 #include "hgmm/em.h"
 #include "planted_mixture.h"
+#include "scan/cells.h"
 
 namespace hgmm::test {
 namespace {

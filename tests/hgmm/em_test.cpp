@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "hgmm/sample.h"
+#include "hgmm/sampling.h"
 #include "overestimate.h"
 #include "planted_mixture.h"
 

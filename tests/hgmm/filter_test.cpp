@@ -1,4 +1,4 @@
-#include "hgmm/filter.h"
+#include "hgmm/scan.h"
 
 #include <gtest/gtest.h>
 

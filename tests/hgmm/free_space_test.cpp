@@ -1,4 +1,4 @@
-#include "hgmm/free_space.h"
+#include "occupancy/free_space.h"
 
 #include <gtest/gtest.h>
 
@@ -33,10 +33,10 @@ std::vector<RayBundle> hall(std::uint64_t seed) {
     return bundles;
 }
 
-Clearance clearanceOf(const std::vector<RayBundle>& bundles) {
-    Clearance clearance;
-    for (std::uint32_t i = 0; i < bundles.size(); ++i) clearance.update(i, bundles[i].mean);
-    return clearance;
+SurfacePyramid clearanceOf(const std::vector<RayBundle>& bundles) {
+    SurfacePyramid pyramid;
+    for (std::uint32_t i = 0; i < bundles.size(); ++i) pyramid.update(i, bundles[i].mean);
+    return pyramid;
 }
 
 FreeSpace filled(int scans, const FreeSpaceParams& params = {}) {
@@ -49,7 +49,7 @@ FreeSpace filled(int scans, const FreeSpaceParams& params = {}) {
 }
 
 TEST(FreeSpace, SupportsContinueThoseOfTheBands) {
-    const BandParams band;
+    const FreeSpaceBandParams band;
     double expected = 0;
     for (const RayBundle& b : hall(0)) {
         const double range = (b.mean - kSensor).norm();
@@ -126,15 +126,15 @@ TEST(FreeSpace, SettledCellsLearnNoMore) {
     FreeSpaceParams params;
     params.freeSettledScans = 4;
     const auto bundles = hall(1);
-    const Clearance clearance = clearanceOf(bundles);
+    const SurfacePyramid pyramid = clearanceOf(bundles);
     FreeSpace space;
-    space.insert(bundles, kSensor, clearance, {}, params);
+    space.insert(bundles, kSensor, pyramid, {}, params);
     const double one = space.mixture().totalSupport();
-    for (int s = 1; s < 4; ++s) space.insert(bundles, kSensor, clearance, {}, params);
+    for (int s = 1; s < 4; ++s) space.insert(bundles, kSensor, pyramid, {}, params);
     EXPECT_NEAR(space.mixture().totalSupport(), 4 * one, 0.3 * one);
-    for (int s = 0; s < 20; ++s) space.insert(bundles, kSensor, clearance, {}, params);
+    for (int s = 0; s < 20; ++s) space.insert(bundles, kSensor, pyramid, {}, params);
     EXPECT_LE(space.mixture().totalSupport(), 5.01 * one);
-    EXPECT_TRUE(space.insert(bundles, kSensor, clearance, {}, params).empty());
+    EXPECT_TRUE(space.insert(bundles, kSensor, pyramid, {}, params).empty());
 }
 
 TEST(FreeSpace, CellsShrinkNearSurfaces) {
@@ -143,14 +143,14 @@ TEST(FreeSpace, CellsShrinkNearSurfaces) {
     ray.support = 10;
     ray.mean << 16, 0.3, 0.3;
     ray.covariance = 1e-2 * Eigen::Matrix3d::Identity();
-    Clearance open, floor;
+    SurfacePyramid open, floor;
     open.update(0, ray.mean);
     std::uint32_t n = 0;
     for (double x = 0; x < 16; x += 0.25)
         for (double y = -1; y < 1.5; y += 0.25) floor.update(n++, {x, y, 0.05});
-    const auto cells = [&](const Clearance& clearance) {
+    const auto cells = [&](const SurfacePyramid& pyramid) {
         FreeSpace space;
-        space.insert({ray}, {0, 0.3, 0.3}, clearance, {}, {});
+        space.insert({ray}, {0, 0.3, 0.3}, pyramid, {}, {});
         return space.mixture().size();
     };
     EXPECT_LT(cells(open), 12U);

@@ -1,4 +1,5 @@
 #include "hgmm/hierarchy.h"
+#include "mixture/knee.h"
 
 #include <gtest/gtest.h>
 

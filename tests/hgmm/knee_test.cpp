@@ -1,4 +1,4 @@
-#include "hgmm/knee.h"
+#include "mixture/knee.h"
 
 #include <gtest/gtest.h>
 

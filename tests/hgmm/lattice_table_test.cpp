@@ -1,4 +1,4 @@
-#include "hgmm/lattice_table.h"
+#include "base/lattice_table.h"
 
 #include <gtest/gtest.h>
 

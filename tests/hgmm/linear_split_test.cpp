@@ -1,12 +1,12 @@
-#include "../../libs/hgmm/src/linear_split.h"
+#include "modality/linear_split.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "../../libs/hgmm/src/channel_sums.h"
 #include "coloured_scenes.h"
+#include "modality/channel_sums.h"
 
 namespace hgmm {
 namespace {

@@ -53,7 +53,7 @@ TEST(MapIo, ExactRoundTripIsExact) {
     EXPECT_EQ(loaded.logDensity(wall), map.logDensity(wall));
     EXPECT_TRUE(loaded.mixture(3) == map.mixture(3));
     EXPECT_TRUE(loaded.freeMixture(3) == map.freeMixture(3));
-    EXPECT_TRUE(loaded.views(3) == map.views(3));
+    EXPECT_TRUE(loaded.viewDirections(3) == map.viewDirections(3));
 }
 
 TEST(MapIo, CompactRoundTripGivesTheSameBuffer) {

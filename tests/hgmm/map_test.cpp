@@ -31,8 +31,8 @@ TEST(Map, ModelsTheRoom) {
     const double points = 6 * 360 * 32;
     EXPECT_NEAR(map.mixture().totalSupport(), points, 1e-3 * points);
     MapParams trusting;
-    trusting.contradiction.contradictedKeep = 1.0;
-    trusting.contradiction.minSupport = 0;
+    trusting.carving.carvedSupport = 1.0;
+    trusting.carving.minSupport = 0;
     trusting.novelty.maxThickness = 1000;
     EXPECT_NEAR(roomMap(6, trusting).mixture().totalSupport(), points, 0.5);
     const RoomScanner room;

@@ -1,4 +1,4 @@
-#include "../../libs/hgmm/src/modality_codec.h"
+#include "io/modality_codec.h"
 
 #include <gtest/gtest.h>
 

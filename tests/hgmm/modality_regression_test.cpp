@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <random>
 
-#include "hgmm/conditional.h"
-#include "hgmm/modality_group.h"
+#include "hgmm/regression.h"
+#include "modality/modality_group.h"
 
 namespace hgmm {
 namespace {

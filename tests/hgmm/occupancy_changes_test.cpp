@@ -134,7 +134,7 @@ TEST(OccupancyChanges, AStaticRoomLosesNothingUnderPoseNoise) {
         scan.T_map_sensor = shaken(truth, 0.01, 0.2 * M_PI / 180, 700 + k);
         const InsertReport report = map.insert(scan);
         removed += report.componentsRemoved;
-        contradicted += report.componentsContradicted;
+        contradicted += report.componentsCarved;
     }
     // The walls as a scan sees them.
     const Scan probe = scanner.scan(poseAt(0.3, 0.2, 1.2), 1);

@@ -1,5 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
 #include <cstring>
 
 #include "scenes.h"
@@ -64,7 +69,7 @@ TEST(OccupancyFormats, VersionOneLoadsAndAnswers) {
     EXPECT_EQ(map.origin(), origin);
     EXPECT_TRUE(map.mixture() == source.mixture());
     EXPECT_TRUE(map.freeMixture().empty());
-    EXPECT_FALSE(map.views()[0].known());
+    EXPECT_FALSE(map.viewDirections()[0].known());
     const Eigen::Vector3d shift = origin - source.origin();
     int occupied = 0, all = 0;
     for (double y = -2; y <= 2; y += 0.1)
@@ -123,60 +128,18 @@ TEST(OccupancyFormats, CompactMapsAnswerAsTheOriginal) {
     EXPECT_LT(differ, all / 200);
 }
 
-TEST(PerComponent, HasAFreeComponentPerSurfaceOnEachLevel) {
-    const Map map = mapOf(emptyRoom(), 6, perComponentParams());
-    for (std::size_t level = 0; level < map.levelCount(); ++level) {
-        map.freeMixture(level).check();
-        EXPECT_GT(map.mixture(level).size(), 5U);
-        EXPECT_EQ(map.freeMixture(level).size(), map.mixture(level).size());
-        EXPECT_EQ(map.views(level).size(), map.mixture(level).size());
+/// A map as it was saved while the thesis' own free space could be chosen.
+TEST(OccupancyFormats, TheThesisOwnFreeSpaceIsRefusedInOneSentence) {
+    std::ifstream file(HGMM_TEST_DATA "/thesis_free_space.bin", std::ios::binary);
+    ASSERT_TRUE(file);
+    const std::vector<std::uint8_t> buffer(std::istreambuf_iterator<char>(file), {});
+    try {
+        Map::load(buffer.data(), buffer.size());
+        FAIL() << "it was loaded";
+    } catch (const FormatError& e) {
+        EXPECT_NE(std::string(e.what()).find("--study free-space"), std::string::npos)
+            << e.what();
     }
-}
-
-TEST(PerComponent, AnswersLikeAMap) {
-    const Map map = mapOf(emptyRoom(), 6, perComponentParams());
-    int occupied = 0, free = 0, all = 0;
-    for (double y = -2; y <= 2; y += 0.1)
-        for (double z = 0.6; z <= 1.9; z += 0.1, ++all) {
-            const Occupancy on = map.occupancy({4, y, z}),
-                            before = map.occupancy({2.5, y, z});
-            for (const Occupancy& o : {on, before}) {
-                EXPECT_NEAR(o.occupied + o.free + o.unknown, 1, 1e-6);
-                EXPECT_TRUE(std::isfinite(o.distance_m) && o.variance_m2 >= 0);
-            }
-            occupied += on.occupied > before.occupied;
-            free += before.free > 0.5F;
-            EXPECT_GT(map.occupancy({9, y, z}).unknown, 0.99F);
-        }
-    EXPECT_GT(occupied, 0.95 * all);
-    EXPECT_GT(free, 0.8 * all);
-}
-
-TEST(PerComponent, SavesAndLoads) {
-    const Map map = mapOf(emptyRoom(), 4, perComponentParams());
-    const auto exact = map.save(Encoding::exact), compact = map.save();
-    EXPECT_TRUE(Map::load(exact.data(), exact.size()) == map);
-    const Map loaded = Map::load(compact.data(), compact.size());
-    EXPECT_EQ(loaded.params().occupancy.freeSpace.freeSpaceModel, 1);
-    EXPECT_EQ(loaded.freeMixture().size(), map.freeMixture().size());
-    EXPECT_TRUE(loaded.save() == compact);
-    // A free component still belongs to its surface: its mean lies before it.
-    for (std::size_t i = 0; i < loaded.mixture().size(); ++i) {
-        const Eigen::Vector3d between = loaded.freeMixture()[i].mean.head<3>() -
-                                        Eigen::Vector3d(loaded.mixture()[i].mean);
-        EXPECT_GT(between.normalized().dot(loaded.views()[i].direction), 0.5) << i;
-    }
-}
-
-TEST(PerComponent, AFilledMapKeepsItsModel) {
-    Map map = mapOf(emptyRoom(), 1);
-    EXPECT_THROW(map.setParams(perComponentParams()), std::invalid_argument);
-    EXPECT_EQ(map.params().occupancy.freeSpace.freeSpaceModel, 0);
-    map.clear();
-    map.setParams(perComponentParams());
-    MapParams params;
-    params.occupancy.freeSpace.freeSpaceModel = 2;
-    EXPECT_THROW(Map{params}, std::invalid_argument);
 }
 
 }  // namespace

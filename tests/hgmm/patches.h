@@ -3,9 +3,9 @@
 #include <cmath>
 #include <random>
 
-#include "../../libs/hgmm/src/registration_cost.h"
-#include "hgmm/filter.h"
 #include "hgmm/mixture.h"
+#include "hgmm/scan.h"
+#include "registration/registration_cost.h"
 
 namespace hgmm::testing {
 

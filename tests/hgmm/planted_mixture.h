@@ -8,7 +8,7 @@
 
 #include "hgmm/em.h"
 #include "hgmm/mixture.h"
-#include "hgmm/sample.h"
+#include "hgmm/sampling.h"
 
 namespace hgmm::test {
 

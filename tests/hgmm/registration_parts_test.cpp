@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
-#include "../../libs/hgmm/src/registration_newton.h"
-#include "../../libs/hgmm/src/registration_search.h"
 #include "patches.h"
+#include "registration/registration_newton.h"
+#include "registration/registration_search.h"
 
 namespace hgmm {
 namespace {
@@ -163,7 +163,7 @@ TEST(RegistrationParts, ThinnedSourcesHalve) {
         EXPECT_LT(sources[s].size(), sources[s + 1].size());
         EXPECT_GT(2.5 * double(sources[s].size()), 0.5 * double(sources[s + 1].size()));
         EXPECT_EQ(sources[s].centre, whole.centre);
-        EXPECT_EQ(sources[s].lever_m, whole.lever_m);
+        EXPECT_EQ(sources[s].gyrationRadius_m, whole.gyrationRadius_m);
     }
     // What is crowded does not stay so.
     const auto crowded = [](const RegistrationSource& source) {

@@ -1,4 +1,4 @@
-#include "hgmm/scan_samples.h"
+#include "hgmm/scan.h"
 
 #include <gtest/gtest.h>
 

@@ -53,10 +53,4 @@ inline Map mapOf(const RoomScanner& scanner, int scans, const MapParams& params 
     return map;
 }
 
-inline MapParams perComponentParams() {
-    MapParams params;
-    params.occupancy.freeSpace.freeSpaceModel = 1;
-    return params;
-}
-
 }  // namespace hgmm::testing

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "hgmm/conditional.h"
+#include "hgmm/regression.h"
 #include "joint_mixture.h"
 
 namespace {

@@ -1,9 +1,10 @@
-#include "hgmm/update.h"
+#include "fusion/update.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
+#include "fusion/oversized.h"
 #include "hgmm/gaussian.h"
 
 namespace hgmm {
@@ -35,6 +36,11 @@ struct Fixture {
         split = splitByNovelty(samples, index, {});
     }
 };
+
+void lower(const std::vector<SupportDecay>& decays, Mixture<3>& mixture) {
+    for (const SupportDecay& decay : decays)
+        mixture.support[decay.component] = decay.support;
+}
 
 TEST(Update, IsEquations319To322) {
     Fixture f;
@@ -68,8 +74,10 @@ TEST(Update, IsEquations319To322) {
             S_Sigma[j] += share * (z.covariance + z.mean * z.mean.transpose());
         }
     }
-    const auto changed = updateKnown(f.mixture, f.index, f.samples, f.split).changed;
-    ASSERT_EQ(changed, (std::vector<std::uint32_t>{0, 1}));
+    const KnownUpdate update = updateKnown(f.mixture, f.index, f.samples, f.split);
+    ASSERT_EQ(update.changed, (std::vector<std::uint32_t>{0, 1}));
+    ASSERT_EQ(update.components.size(), 2U);
+    for (const std::uint32_t j : update.changed) f.mixture.set(j, update.components[j]);
     f.mixture.check();
     for (int j = 0; j < 2; ++j) {
         const Gaussian<3> g = f.mixture[j];
@@ -85,44 +93,40 @@ TEST(Update, IsEquations319To322) {
 
 TEST(Update, NothingKnownChangesNothing) {
     Fixture f;
-    const Mixture<3> old = f.mixture;
     NoveltySplit none;
     none.neighbourhoods.begin.push_back(0);
     EXPECT_TRUE(updateKnown(f.mixture, f.index, f.samples, none).changed.empty());
-    EXPECT_EQ(f.mixture, old);
 }
 
-TEST(Update, OutgrownComponentsGiveWay) {
+TEST(Oversized, ComponentsLoseTheSupportOfSamplesThatTheyCannotExplain) {
     Fixture f;
-    const Mixture<3> old = f.mixture;
     NoveltySplit split;  // sample 1 has support 2, sample 2 has 3
     split.novel = {1, 2};
-    split.outgrown = {{1, 1}, {1, 2}};
-    const std::vector<Loss> losses = giveWay(f.mixture, f.index, f.samples, split);
-    ASSERT_EQ(losses.size(), 1U);
-    EXPECT_EQ(losses[0].component, 1U);
-    EXPECT_NEAR(losses[0].kept, 35.0 / 40.0, 1e-6);
-    EXPECT_EQ(f.mixture.support[0], 100.F);
-    EXPECT_EQ(f.mixture.support[1], 35.F);
-    EXPECT_EQ(f.mixture.mean, old.mean);
-    EXPECT_EQ(f.mixture.covariance, old.covariance);
+    split.oversized = {{1, 1}, {1, 2}};
+    const std::vector<SupportDecay> decays =
+        downweightOversized(f.mixture, f.index, f.samples, split);
+    ASSERT_EQ(decays.size(), 1U);
+    EXPECT_EQ(decays[0].component, 1U);
+    EXPECT_EQ(decays[0].support, 35.F) << "of 40";
+    lower(decays, f.mixture);
     // Supports stay positive.
     f.samples.support[2] = 50.F;
-    split.outgrown = {{1, 2}};
-    giveWay(f.mixture, f.index, f.samples, split);
+    split.oversized = {{1, 2}};
+    lower(downweightOversized(f.mixture, f.index, f.samples, split), f.mixture);
     EXPECT_EQ(f.mixture.support[1], kNoSupport);
-    EXPECT_TRUE(giveWay(f.mixture, f.index, f.samples, split).empty()) << "nothing is left";
+    EXPECT_TRUE(downweightOversized(f.mixture, f.index, f.samples, split).empty())
+        << "nothing is left";
 }
 
-TEST(Update, OutgrownComponentsLoseWhatTheyWouldBeGiven) {
-    // Of each sample, component 0 explains what component 1, outgrown, does not claim.
+TEST(Oversized, ComponentsLoseWhatTheyWouldBeGiven) {
+    // Of each sample, component 0 explains what component 1, oversized, does not claim.
     Fixture f;
     const Mixture<3> old = f.mixture;
     NoveltySplit split;
     split.neighbourhoods.begin.push_back(0);
     double expected = 0;
     for (std::uint32_t i = 0; i < f.samples.size(); ++i) {
-        split.outgrown.push_back({1, i});
+        split.oversized.push_back({1, i});
         if (i % 2 == 0) {
             split.novel.push_back(i);
             expected += f.samples.support[i];
@@ -142,10 +146,11 @@ TEST(Update, OutgrownComponentsLoseWhatTheyWouldBeGiven) {
     for (const float support : f.samples.support) all += support;
     ASSERT_LT(expected, 0.9 * all) << "component 0 has a part in them";
     for (float& support : f.samples.support) support *= 0.05F;  // less than there is
-    const std::vector<Loss> losses = giveWay(f.mixture, f.index, f.samples, split);
-    ASSERT_EQ(losses.size(), 1U);
-    EXPECT_NEAR(f.mixture.support[1], 40 - 0.05 * expected, 1e-3);
-    EXPECT_EQ(f.mixture.support[0], 100.F);
+    const std::vector<SupportDecay> decays =
+        downweightOversized(f.mixture, f.index, f.samples, split);
+    ASSERT_EQ(decays.size(), 1U);
+    EXPECT_EQ(decays[0].component, 1U);
+    EXPECT_NEAR(decays[0].support, 40 - 0.05 * expected, 1e-3);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "../../libs/hgmm/src/value_index.h"
+#include "modality/value_index.h"
 
 #include <gtest/gtest.h>
 

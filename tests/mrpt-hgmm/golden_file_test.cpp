@@ -36,7 +36,7 @@ std::vector<Eigen::Vector3d> pointsOf(const hgmm::Map& map) {
     std::vector<Eigen::Vector3d> points;
     const auto& mixture = map.mixture();
     for (std::size_t i = 0; i < mixture.size(); i += 1 + mixture.size() / 20) {
-        const hgmm::View view = map.views()[i];
+        const hgmm::ViewDirection view = map.viewDirections()[i];
         points.push_back(map.origin() + mixture[i].mean +
                          Eigen::Vector3d(0.005, -0.005, 0.005));
         points.push_back(points.back() + 0.5 * view.range_m * view.direction);

@@ -119,9 +119,9 @@ TEST(Matching, UniqueRobustLeavesOnePointToTheEndOfASurface) {
     ASSERT_EQ(all.pairs.size(), 6U);
     params.onlyUniqueRobust = true;
     const Match unique = match2D(map, points, {}, params);
-    std::set<std::pair<float, float>> feet;
+    std::set<std::pair<float, float>> projections;
     for (const auto& pair : unique.pairs)
-        EXPECT_TRUE(feet.emplace(pair.global.x, pair.global.y).second);
+        EXPECT_TRUE(projections.emplace(pair.global.x, pair.global.y).second);
     std::set<unsigned> kept;
     for (const auto& pair : unique.pairs) kept.insert(pair.localIdx);
     EXPECT_TRUE(kept.count(5)) << "the closest to the end";

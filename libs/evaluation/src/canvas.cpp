@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hgmm/require.h"
+#include "hgmm/params.h"
 
 namespace hgmm::evaluation {
 namespace {

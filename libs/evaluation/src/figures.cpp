@@ -5,7 +5,7 @@
 
 #include "hgmm/divergence.h"
 #include "hgmm/evaluation/likelihood.h"
-#include "hgmm/map_params.h"
+#include "hgmm/params.h"
 
 namespace hgmm::evaluation {
 

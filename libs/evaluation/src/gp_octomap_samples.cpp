@@ -13,9 +13,9 @@ constexpr int kBits = 21;
 
 /// Replaces the points of each cell by their mean; cells in the order of their first
 /// points.
-class Thinning {
+class SplitPolicy {
  public:
-    explicit Thinning(const GpOctomapParams& params) : edge_m_(params.sampleSpacing_m) {}
+    explicit SplitPolicy(const GpOctomapParams& params) : edge_m_(params.sampleSpacing_m) {}
 
     void add(const Eigen::Vector3d& point_m) {
         if (!hasVoxel(point_m, edge_m_)) return;
@@ -43,7 +43,7 @@ class Thinning {
 };
 
 std::vector<Eigen::Vector3d> hitsOf(const Scan& scan, const GpOctomapParams& params) {
-    Thinning hits(params);
+    SplitPolicy hits(params);
     for (std::size_t i = 0; i < scan.size(); ++i) {
         const Eigen::Vector3d p_sensor(scan.x[i], scan.y[i], scan.z[i]);
         if (p_sensor.squaredNorm() > 0.0)
@@ -55,7 +55,7 @@ std::vector<Eigen::Vector3d> hitsOf(const Scan& scan, const GpOctomapParams& par
 std::vector<Eigen::Vector3d> freeSamples(const std::vector<Eigen::Vector3d>& hits_map,
                                          const Eigen::Vector3d& sensor_map,
                                          const GpOctomapParams& params) {
-    Thinning samples(params);
+    SplitPolicy samples(params);
     for (const Eigen::Vector3d& hit : hits_map) {
         const Eigen::Vector3d toSensor = sensor_map - hit;
         const double range_m = toSensor.norm();

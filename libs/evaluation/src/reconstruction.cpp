@@ -4,7 +4,7 @@
 #include <nanoflann.hpp>
 #include <stdexcept>
 
-#include "hgmm/sample.h"
+#include "hgmm/sampling.h"
 
 namespace hgmm::evaluation {
 namespace {

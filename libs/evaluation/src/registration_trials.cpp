@@ -10,10 +10,10 @@
 #include "hgmm/evaluation/sensor_kind.h"
 #include "hgmm/evaluation/split.h"
 #include "hgmm/evaluation/timing.h"
-#include "hgmm/filter.h"
 #include "hgmm/map.h"
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
 #include "hgmm/registration.h"
+#include "hgmm/scan.h"
 
 namespace hgmm::evaluation {
 namespace {

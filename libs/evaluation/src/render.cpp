@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "canvas.h"
-#include "hgmm/require.h"
+#include "hgmm/params.h"
 
 namespace hgmm::evaluation {
 namespace {

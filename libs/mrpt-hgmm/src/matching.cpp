@@ -22,22 +22,24 @@ void requireStride(const mrpt::maps::TMatchingParams& params) {
             ": must be below decimation_other_map_points");
 }
 
-/// Of pairs with the same foot, leaves the closest, and the first of equals.
+/// Of pairs with the same projection, leaves the closest, and the first of equals.
 void keepClosestOfSameFoot(mrpt::tfest::TMatchingPairList& pairs) {
-    const auto foot = [](const mrpt::tfest::TMatchingPair& p) {
+    const auto projection = [](const mrpt::tfest::TMatchingPair& p) {
         return std::make_tuple(p.globalIdx, float{p.global.x}, float{p.global.y},
                                float{p.global.z});
     };
     const auto rank = [&](const mrpt::tfest::TMatchingPair& p) {
         return std::tuple_cat(
-            foot(p), std::make_tuple(float{p.errorSquareAfterTransformation}, p.localIdx));
+            projection(p),
+            std::make_tuple(float{p.errorSquareAfterTransformation}, p.localIdx));
     };
     std::sort(pairs.begin(), pairs.end(),
               [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
-    pairs.erase(
-        std::unique(pairs.begin(), pairs.end(),
-                    [&](const auto& a, const auto& b) { return foot(a) == foot(b); }),
-        pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end(),
+                            [&](const auto& a, const auto& b) {
+                                return projection(a) == projection(b);
+                            }),
+                pairs.end());
     std::sort(pairs.begin(), pairs.end(),
               [](const auto& a, const auto& b) { return a.localIdx < b.localIdx; });
 }
@@ -89,7 +91,7 @@ void SurfaceMatching::match(const Map& map, const PointsView& other,
     pairs.clear();
     results = {};
     if (map.empty() || other.size == 0) return;
-    const auto projection = surfacesOf<D>(map);
+    const auto surfaces = surfacesOf<D>(map);
     const Pose T = toPose(T_map_other);
     std::size_t considered = 0;
     double sum_m2 = 0;
@@ -102,17 +104,18 @@ void SurfaceMatching::match(const Map& map, const PointsView& other,
         typename SurfaceProjection<D>::Point local;
         for (int d = 0; d < D; ++d)
             local[d] = static_cast<float>(p_map[d] - map.origin()[d]);
-        const auto foot = projection->mostLikely(local, reach<D>(params, p_map));
-        if (!foot) continue;
-        Eigen::Vector3d foot_map = map.origin();
-        for (int d = 0; d < D; ++d) foot_map[d] += double(foot->point[d]);
-        if (D == 2) foot_map.z() += double(map.mixture().mean[2][foot->component]);
+        const auto projection = surfaces->mostLikely(local, reach<D>(params, p_map));
+        if (!projection) continue;
+        Eigen::Vector3d projection_map = map.origin();
+        for (int d = 0; d < D; ++d) projection_map[d] += double(projection->point[d]);
+        if (D == 2)
+            projection_map.z() += double(map.mixture().mean[2][projection->component]);
         pairs.emplace_back(
-            foot->component, static_cast<std::uint32_t>(i),
-            static_cast<float>(foot_map.x()), static_cast<float>(foot_map.y()),
-            static_cast<float>(foot_map.z()), other.x[i], other.y[i], other.z[i]);
-        pairs.back().errorSquareAfterTransformation = foot->squaredDistance_m2;
-        sum_m2 += double(foot->squaredDistance_m2);
+            projection->component, static_cast<std::uint32_t>(i),
+            static_cast<float>(projection_map.x()), static_cast<float>(projection_map.y()),
+            static_cast<float>(projection_map.z()), other.x[i], other.y[i], other.z[i]);
+        pairs.back().errorSquareAfterTransformation = projection->squaredDistance_m2;
+        sum_m2 += double(projection->squaredDistance_m2);
     }
     if (pairs.empty()) return;
     results.correspondencesRatio =
@@ -133,10 +136,11 @@ template void SurfaceMatching::match<3>(const Map&, const PointsView&,
                                         mrpt::maps::TMatchingExtraResults&) const;
 
 float SurfaceMatching::squaredDistance(const Map& map, float x, float y) const {
-    const auto foot =
+    const auto projection =
         surfacesOf<2>(map)->nearest({static_cast<float>(double(x) - map.origin().x()),
                                      static_cast<float>(double(y) - map.origin().y())});
-    return foot ? foot->squaredDistance_m2 : std::numeric_limits<float>::infinity();
+    return projection ? projection->squaredDistance_m2
+                      : std::numeric_limits<float>::infinity();
 }
 
 void SurfaceMatching::invalidate() {

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "hgmm/require.h"
+#include "hgmm/params.h"
 #include "option_fields.h"
 
 using mrpt::config::CConfigFileBase;

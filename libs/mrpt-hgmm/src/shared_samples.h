@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "hgmm/scan_samples.h"
+#include "hgmm/scan.h"
 
 namespace hgmm::mrpt_bridge {
 

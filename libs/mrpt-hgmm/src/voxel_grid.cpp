@@ -8,15 +8,14 @@
 #include <string>
 
 #include "cell_set.h"
-#include "hgmm/occupancy_model.h"
-#include "hgmm/require.h"
+#include "hgmm/params.h"
 
 namespace hgmm::mrpt_bridge {
 
 namespace {
 
 /// Beyond, the map has no answer that depends on the component.
-constexpr double kSigmas = OccupancyModel::kSigmas;
+constexpr double kSigmas = kReachSigmas;
 
 /// Where a component lies in space, in the map's local frame.
 struct Blob {
@@ -37,17 +36,14 @@ std::vector<Blob> blobsOf(const Mixture<D>& mixture) {
 }
 
 /// Where the surface components of a level say that there is free space before them (thesis
-/// 4.1): from a component to the end of its band, as wide as the component. The thesis' own
-/// model has no bands.
+/// 4.1): from a component to the end of its band, as wide as the component.
 std::vector<Blob> bandsOf(const Map& map, std::size_t level) {
     const OccupancyParams& params = map.params().occupancy;
-    if (params.freeSpace.freeSpaceModel != static_cast<int>(FreeSpaceModel::slabs))
-        return {};
     const Mixture<3>& surface = map.mixture(level);
-    const Views& views = map.views(level);
+    const ViewDirections& views = map.viewDirections(level);
     std::vector<Blob> bands;
     for (std::size_t i = 0; i < surface.size(); ++i) {
-        const View view = views[i];
+        const ViewDirection view = views[i];
         if (!view.known()) continue;
         // A quarter of the reach: within kSigmas lies all of the band that is beside the
         // component by less than sqrt(kSigmas^2 - 2^2) sigma.

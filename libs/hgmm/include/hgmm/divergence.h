@@ -1,4 +1,5 @@
 #pragma once
+#include "hgmm/export.h"
 #include "hgmm/gaussian.h"
 #include "hgmm/mixture.h"
 
@@ -6,20 +7,20 @@ namespace hgmm {
 
 /// KL(f || g) between two Gaussians [nat], >= 0: thesis eq. (3.14).
 template <int D>
-double klDivergence(const Gaussian<D>& f, const Gaussian<D>& g);
+HGMM_EXPORT double klDivergence(const Gaussian<D>& f, const Gaussian<D>& g);
 
 /// The same with both factored beforehand; `fCovariance` is f's covariance.
 template <int D>
-double klDivergence(const WhitenedGaussian<D>& f,
-                    const typename Gaussian<D>::Matrix& fCovariance,
-                    const WhitenedGaussian<D>& g);
+HGMM_EXPORT double klDivergence(const WhitenedGaussian<D>& f,
+                                const typename Gaussian<D>::Matrix& fCovariance,
+                                const WhitenedGaussian<D>& g);
 
 /// Goldberger's approximation of KL(p || q) between mixtures [nat]: thesis eq. (3.15),
 /// after Goldberger, Gordon and Greenspan, ICCV 2003. It is not exact (components that
 /// overlap are told apart), and below zero where q's fewer components carry more weight
 /// than those of p that they stand for. Throws std::invalid_argument if one is empty.
 template <int D>
-double klDivergence(const Mixture<D>& p, const Mixture<D>& q);
+HGMM_EXPORT double klDivergence(const Mixture<D>& p, const Mixture<D>& q);
 
 /// Cauchy-Schwarz divergence between mixtures [nat], >= 0, symmetric, in closed form. This
 /// is the derivation of thesis eq. (3.18), whose printed form is garbled:
@@ -27,6 +28,6 @@ double klDivergence(const Mixture<D>& p, const Mixture<D>& q);
 ///   S_m + S_k)
 /// It is half of eq. (3.17). Throws std::invalid_argument if one is empty.
 template <int D>
-double cauchySchwarzDivergence(const Mixture<D>& p, const Mixture<D>& q);
+HGMM_EXPORT double cauchySchwarzDivergence(const Mixture<D>& p, const Mixture<D>& q);
 
 }  // namespace hgmm

@@ -1,21 +1,15 @@
 #pragma once
+#include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "hgmm/export.h"
 #include "hgmm/mixture.h"
+#include "hgmm/params.h"
 
 namespace hgmm {
-
-/// Expectation-Maximization, thesis 3.1.2.
-struct EmParams {
-    int maxIterations = 5;  ///< E- and M-steps [count], >= 0
-    double minImprovement =
-        1e-3;  ///< stop when the log-likelihood gains less [nat/point], >= 0
-
-    /// Throws std::invalid_argument naming the field.
-    void validate() const;
-};
 
 template <int D>
 struct EmResult {
@@ -40,18 +34,39 @@ struct Neighbourhoods {
 /// second moment, so that fitting leaf moments equals fitting the points behind them where
 /// these agree on their component.
 template <int D>
-EmResult<D> fitDense(const Mixture<D>& samples, const Mixture<D>& initial,
-                     const EmParams& params);
+HGMM_EXPORT EmResult<D> fitDense(const Mixture<D>& samples, const Mixture<D>& initial,
+                                 const EmParams& params);
 
 /// Engine: a sample sees its neighbourhood only. Cost is linear in the number of samples.
 template <int D>
-EmResult<D> fitSparse(const Mixture<D>& samples, const Mixture<D>& initial,
-                      const Neighbourhoods& neighbourhoods, const EmParams& params);
+HGMM_EXPORT EmResult<D> fitSparse(const Mixture<D>& samples, const Mixture<D>& initial,
+                                  const Neighbourhoods& neighbourhoods,
+                                  const EmParams& params);
 
 /// log p(x | mixture), thesis eq. (3.2), of D numbers [nat], over all components; -infinity
 /// never leaves: far from all components the result is the finite log-density of the
 /// nearest.
 template <int D>
-double logDensity(const Mixture<D>& mixture, const double* x);
+HGMM_EXPORT double logDensity(const Mixture<D>& mixture, const double* x);
+
+/// The components within `sigmas` of each point, or the likeliest one where there are none:
+/// what fitSparse asks for where no first guess told. Throws std::invalid_argument for an
+/// empty mixture.
+/// @param points the coordinates of point i are at [d][i]
+HGMM_EXPORT Neighbourhoods neighbourhoodsOf(const std::array<std::vector<float>, 3>& points,
+                                            const Mixture<3>& mixture, double sigmas);
+
+/// A first guess ready for fitSparse.
+struct InitialMixture {
+    Mixture<3> mixture;             ///< one component per cell, or part of a cell
+    Neighbourhoods neighbourhoods;  ///< a sample's component and those near it
+};
+
+/// An overestimate of the fidelity threshold: the moments of the samples in each cell
+/// (thesis 3.3.4). Cells follow each sample's own range |sample - sensorOrigin| in octaves.
+/// Samples and origin are in the same frame.
+HGMM_EXPORT InitialMixture initialiseFromCells(const Mixture<3>& samples,
+                                               const Eigen::Vector3d& sensorOrigin,
+                                               const CellParams& params);
 
 }  // namespace hgmm

@@ -8,29 +8,26 @@
 #include <string>
 #include <vector>
 
-#include "hgmm/cross_modal.h"
-#include "hgmm/filter.h"
-#include "hgmm/free_space.h"
-#include "hgmm/map_params.h"
+#include "hgmm/export.h"
 #include "hgmm/mixture.h"
-#include "hgmm/modalities.h"
+#include "hgmm/modality.h"
 #include "hgmm/occupancy.h"
+#include "hgmm/params.h"
 #include "hgmm/scan.h"
-#include "hgmm/scan_samples.h"
-#include "hgmm/views.h"
+#include "hgmm/view_directions.h"
 
 namespace hgmm {
 
 /// What one scan did to the map.
 struct InsertReport {
     FilterCounts points;
-    std::size_t samples = 0;                 ///< after the filter
-    std::size_t novelSamples = 0;            ///< not explained by the map before this scan
-    std::size_t componentsUpdated = 0;       ///< that absorbed known samples
-    std::size_t componentsAdded = 0;         ///< for novel samples
-    std::size_t componentsContradicted = 0;  ///< that the scan saw through
-    std::size_t componentsOutgrown = 0;      ///< too thick for what the scan saw there
-    std::size_t componentsRemoved = 0;       ///< of both, for want of support
+    std::size_t samples = 0;              ///< after the filter
+    std::size_t novelSamples = 0;         ///< not explained by the map before this scan
+    std::size_t componentsUpdated = 0;    ///< that absorbed known samples
+    std::size_t componentsAdded = 0;      ///< for novel samples
+    std::size_t componentsCarved = 0;     ///< that the scan saw through
+    std::size_t componentsOversized = 0;  ///< too thick for what the scan saw there
+    std::size_t componentsRemoved = 0;    ///< of both, for want of support
 };
 
 /// How Map::save writes components.
@@ -40,7 +37,7 @@ enum class Encoding : std::uint8_t {
 };
 
 /// A buffer that Map::load cannot use: truncated, corrupt, foreign, or of a newer version.
-class FormatError : public std::runtime_error {
+class HGMM_EXPORT FormatError : public std::runtime_error {
  public:
     using std::runtime_error::runtime_error;
 };
@@ -51,7 +48,7 @@ class FormatError : public std::runtime_error {
 /// Components are floats in a local frame whose axes are those of the map and whose origin
 /// is fixed, on a lattice of whole metres, by the first scan; poses and points cross this
 /// interface in double. Const member functions may be called from several threads at once.
-class Map {
+class HGMM_EXPORT Map {
  public:
     /// Throws std::invalid_argument naming the field that is out of range.
     explicit Map(const MapParams& params = {});
@@ -61,13 +58,13 @@ class Map {
     Map& operator=(Map&& o) noexcept;
     ~Map();
 
-    const MapParams& params() const { return params_; }
+    const MapParams& params() const;
     /// For scans inserted from now on. Throws like the constructor.
     void setParams(const MapParams& params);
 
-    /// filter -> novelty split -> { known: update | novel: EM, hierarchy, append |
-    /// outgrown: give way }, then free space, then contradictions by rays that pass through
-    /// surfaces; modalities, which are models of their own, at the same time. Throws
+    /// Filter -> novelty split -> { known: update | novel: EM, hierarchy, append |
+    /// oversized: lose support }, then free space, then carving of surfaces that rays
+    /// passed through; modalities, which are models of their own, at the same time. Throws
     /// std::invalid_argument for a malformed scan (Scan::validate), leaving the map as it
     /// was; a scan without usable points changes nothing.
     InsertReport insert(const Scan& scan);
@@ -84,19 +81,17 @@ class Map {
     /// gone, so where one map is free and the other occupied, both stay.
     ///
     /// @param T_this_other pose of the other map's frame in this one's
-    /// Throws std::invalid_argument for a pose that is not finite or not rigid, or maps of
-    /// different freeSpaceModel; nothing is changed then.
+    /// Throws std::invalid_argument for a pose that is not finite or not rigid; nothing
+    /// is changed then.
     void merge(const Map& other, const Pose& T_this_other = {});
 
-    bool empty() const { return model_.surfaces.empty(); }
+    bool empty() const;
     void clear();
 
     /// Origin of the local frame in the map frame [m].
-    const Eigen::Vector3d& origin() const { return origin_; }
+    const Eigen::Vector3d& origin() const;
     /// Number of levels, base included: params().hierarchy.levels.
-    std::size_t levelCount() const {
-        return static_cast<std::size_t>(params_.hierarchy.levels);
-    }
+    std::size_t levelCount() const;
     /// Mixture of a level in the local frame; 0 is the base. Upper levels are brought up to
     /// date here, where the base changed. The reference holds until the next non-const
     /// call. Throws std::out_of_range for a level that does not exist.
@@ -106,7 +101,7 @@ class Map {
     const Mixture<4>& freeMixture(std::size_t level = 0) const;
 
     /// log p(point) under the base level [nat], components farther than
-    /// ComponentIndex::kSigmas left out: -infinity where there are none within. Throws
+    /// kReachSigmas left out: -infinity where there are none within. Throws
     /// nothing.
     double logDensity(const Eigen::Vector3d& point_map) const;
 
@@ -134,12 +129,10 @@ class Map {
     /// @{
 
     /// Names of the channels that this map models: params().modalities.
-    const std::vector<std::string>& modalities() const { return params_.modalities; }
+    const std::vector<std::string>& modalities() const;
     /// The model of a modality; null if no scan had it yet or the map does not model it.
     /// Valid until the next non-const call.
-    const ModalityMap* modality(const std::string& name) const {
-        return model_.modalities.find(name);
-    }
+    const ModalityMap* modality(const std::string& name) const;
     /// The modality at a point: thesis eq. (5.6) and (5.7). Throws std::invalid_argument
     /// for a name that the map does not model. A point that is not finite is not known.
     ModalityEstimate modality(const std::string& name,
@@ -157,9 +150,9 @@ class Map {
         const std::optional<Eigen::Vector3d>& point_map = std::nullopt) const;
     /// @}
 
-    /// Versioned, little-endian, self-describing; parameters included. Derived data (index,
-    /// upper levels) is left out and rebuilt when first needed. A map loaded from a compact
-    /// buffer saves to the same buffer again.
+    /// Versioned, little-endian, self-describing; parameters included. What is computed
+    /// from it (index, upper levels) is left out and built when first needed. A map loaded
+    /// from a compact buffer saves to the same buffer again.
     std::vector<std::uint8_t> save(Encoding encoding = Encoding::compact) const;
     /// Throws FormatError.
     static Map load(const std::uint8_t* data, std::size_t size);
@@ -167,58 +160,16 @@ class Map {
     /// Heap held by the map, index and levels included [bytes].
     std::size_t liveBytes() const;
 
-    /// Views of a level's components, in its order. As for mixture().
-    const Views& views(std::size_t level = 0) const;
+    /// View directions of a level's components, in its order. As for mixture().
+    const ViewDirections& viewDirections(std::size_t level = 0) const;
 
     /// Same parameters, origin, components and views, bit for bit.
     bool operator==(const Map& o) const;
     bool operator!=(const Map& o) const { return !(*this == o); }
 
  private:
-    friend class ModelArchive;  // saves and loads the model
-    class Derived;  // index, upper levels, query models: rebuilt when needed, never saved
-
-    /// What is saved.
-    struct Model {
-        Mixture<3> surfaces;        ///< the base
-        Views views;                ///< of the base
-        FreeSpace freeSpace;        ///< empty with FreeSpaceModel::perComponent
-        Mixture<4> freeOfSurfaces;  ///< one per surface with FreeSpaceModel::perComponent
-        Modalities modalities;
-
-        bool operator==(const Model& o) const;
-    };
-
-    /// Whether the local frame may still be anywhere.
-    bool isBlank() const;
-    bool freePerComponent() const;
-    /// Where the local frame begins, or would with a scan from there.
-    Eigen::Vector3d originWith(const Pose& T_map_sensor) const;
-    void insertSpace(const ScanSamples& scan, const Pose& T_local_sensor,
-                     InsertReport& report);
-    /// Returns what the scan gave to each component that it changed or added. Those that
-    /// lost support join `weakened`.
-    std::vector<RayBundle> insertSurfaces(const Mixture<3>& samples,
-                                          const ThicknessLimit& limit,
-                                          std::vector<std::uint32_t>& weakened,
-                                          InsertReport& report);
-    /// Likewise.
-    void contradict(const Mixture<3>& samples, const Eigen::Vector3d& sensorOrigin,
-                    std::vector<std::uint32_t>& weakened, InsertReport& report);
-    /// Removes those of them that are left with too little support.
-    void removeWeak(std::vector<std::uint32_t> weakened, InsertReport& report);
-    void removeSurface(std::uint32_t i);
-    /// Joins a component of another map, in this local frame, to the most similar of the
-    /// first `candidates`, or adds it. Returns which it became.
-    std::uint32_t mergeSurface(const Gaussian<3>& component, const View& view,
-                               std::size_t candidates);
-    void addFreeOfSurface(std::uint32_t i, const RayBundle& bundle,
-                          const Eigen::Vector3d& sensorOrigin);
-
-    MapParams params_;
-    Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
-    Model model_;
-    std::unique_ptr<Derived> derived_;
+    struct State;
+    std::unique_ptr<State> state_;
 };
 
 }  // namespace hgmm

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "hgmm/export.h"
+
 namespace hgmm {
 
 /// Number of distinct entries of a symmetric D x D matrix.
@@ -85,9 +87,9 @@ class Mixture {
     bool operator!=(const Mixture& o) const { return !(*this == o); }
 };
 
-extern template class Mixture<2>;
-extern template class Mixture<3>;
-extern template class Mixture<4>;
+extern template class HGMM_EXPORT Mixture<2>;
+extern template class HGMM_EXPORT Mixture<3>;
+extern template class HGMM_EXPORT Mixture<4>;
 
 /// The Gaussian with the support, mean and second moments of a and b together.
 template <int D>

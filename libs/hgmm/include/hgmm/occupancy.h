@@ -4,6 +4,9 @@
 
 namespace hgmm {
 
+/// Components are felt up to this distance [sigma].
+constexpr double kReachSigmas = 4.0;
+
 /// What a map says about one point (thesis 4.3). The three probabilities sum to one.
 struct Occupancy {
     float occupied = 0.F;  ///< P(occ = 1 | x), thesis eq. (4.15), in [0, 1]

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "hgmm/export.h"
 #include "hgmm/mixture.h"
 #include "hgmm/scan.h"
 
@@ -20,7 +21,7 @@ struct RegistrationParams {
     double minOverlap = 0.1;  ///< share of the source that must be found [1], in [0, 1]
 
     /// Throws std::invalid_argument naming the field.
-    void validate() const;
+    HGMM_EXPORT void validate() const;
 };
 
 /// What alignment found.
@@ -61,7 +62,7 @@ constexpr double kUnobservable_rad = 1.0;  ///< standard deviation [rad]
 /// Steps are Newton's with the full Hessian where it is positive definite, else with its
 /// Gauss-Newton part, damped, no longer than the stage's width, and halved until the cost
 /// does not rise. Directions that the target does not hold are left as they were guessed.
-class RegistrationTarget {
+class HGMM_EXPORT RegistrationTarget {
  public:
     /// @param levels coarse to fine, or one; all in one frame, the target's. Copied: they
     /// may go afterwards. The last serves the finest stages. Components that are not finite
@@ -88,8 +89,8 @@ class RegistrationTarget {
 
 /// The same for a single alignment: only the part of the target that the source may reach
 /// is made ready.
-Registration registerMixtures(const std::vector<const Mixture<3>*>& targetLevels,
-                              const Mixture<3>& source, const Pose& T_target_source_guess,
-                              const RegistrationParams& params = {});
+HGMM_EXPORT Registration registerMixtures(
+    const std::vector<const Mixture<3>*>& targetLevels, const Mixture<3>& source,
+    const Pose& T_target_source_guess, const RegistrationParams& params = {});
 
 }  // namespace hgmm

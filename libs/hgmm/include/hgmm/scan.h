@@ -4,6 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "hgmm/export.h"
+#include "hgmm/mixture.h"
+#include "hgmm/params.h"
+
 namespace hgmm {
 
 /// Rigid transform; p_a = R p_b + t for a pose named T_a_b.
@@ -28,12 +32,48 @@ struct Scan {
     Pose T_map_sensor;              ///< pose of the sensor in the map frame
 
     std::size_t size() const { return x.size(); }
-    void reserve(std::size_t n);
-    void pushBack(float px, float py, float pz);
+    HGMM_EXPORT void reserve(std::size_t n);
+    HGMM_EXPORT void pushBack(float px, float py, float pz);
     /// Throws std::invalid_argument if x, y, z or a channel differ in length, or the pose
     /// is not finite or its rotation not orthonormal to 1e-4. Points need not be finite:
     /// the filter counts and drops those that are not.
-    void validate() const;
+    HGMM_EXPORT void validate() const;
 };
+
+/// What the filter kept and dropped [points].
+struct FilterCounts {
+    std::size_t used = 0;
+    std::size_t notFinite = 0;
+    std::size_t outOfRange = 0;  ///< nearer than minRange_m or farther than maxRange_m
+};
+
+/// Reduces a scan to samples in the sensor frame: one for each occupied leaf
+/// (FilterParams). Support = points in the leaf, mean = their centroid, covariance = their
+/// scatter plus the sensor's noise variance (so a leaf with one point is a Gaussian of the
+/// size of the measurement's uncertainty, and later stages need no noise model of their
+/// own). The order is that of each leaf's first point, whatever the number of threads.
+HGMM_EXPORT Mixture<3> filterScan(const Scan& scan, const FilterParams& params,
+                                  FilterCounts* counts = nullptr);
+
+/// The same samples in another frame.
+HGMM_EXPORT Mixture<3> transformed(const Mixture<3>& mixture, const Pose& T_target_source);
+
+/// A scan's own mixture, in the sensor's frame: what Map::insert makes of a scan before it
+/// looks at the map. It is the same wherever the scan was taken from, so that particles,
+/// which put one scan into many maps, share it.
+struct ScanSamples {
+    /// After the filter (filterScan), with rings of sparse lidars joined
+    /// (interpolateRings).
+    Mixture<3> samples_sensor;
+    FilterCounts points;  ///< that the filter kept and dropped
+    /// Unit normal of the plane that holds all rays, as those of a planar laser; zero where
+    /// there is none. Without it, the ends of a planar laser's walls pass for surfaces
+    /// across its plane.
+    Eigen::Vector3d normalOfRays_sensor = Eigen::Vector3d::Zero();
+};
+
+/// Uses params.filter and params.cells. Throws std::invalid_argument for a malformed scan
+/// (Scan::validate) and for fields out of range.
+HGMM_EXPORT ScanSamples samplesOf(const Scan& scan, const MapParams& params);
 
 }  // namespace hgmm

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hgmm/evaluation/points.h"
-#include "hgmm/modality_map.h"
+#include "hgmm/modality.h"
 #include "hgmm/scan.h"
 
 namespace hgmm::evaluation {

@@ -7,7 +7,7 @@
 
 #include "hgmm/evaluation/pose_landscape.h"
 #include "hgmm/evaluation/recording.h"
-#include "hgmm/map_params.h"
+#include "hgmm/params.h"
 #include "hgmm/scan.h"
 
 namespace hgmm::evaluation {

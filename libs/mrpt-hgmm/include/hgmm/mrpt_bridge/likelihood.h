@@ -8,8 +8,8 @@
 #include <mutex>
 #include <vector>
 
+#include "hgmm/likelihood.h"
 #include "hgmm/map.h"
-#include "hgmm/surface_likelihood.h"
 
 namespace hgmm::mrpt_bridge {
 

@@ -8,7 +8,7 @@
 #include <mutex>
 
 #include "hgmm/map.h"
-#include "hgmm/surface_projection.h"
+#include "hgmm/projection.h"
 
 namespace hgmm::mrpt_bridge {
 
@@ -21,11 +21,12 @@ struct PointsView {
 };
 
 /// Pairs the points of another map with surfaces of this one, as
-/// mrpt::maps::CPointsMap pairs points with points: of every decimation-th point, the foot
-/// on the most likely surface (SurfaceProjection) nearer than maxDistForCorrespondence +
-/// maxAngularDistForCorrespondence * (distance to angularDistPivotPoint).
+/// mrpt::maps::CPointsMap pairs points with points: of every decimation-th point, the
+/// projection on the most likely surface (SurfaceProjection) nearer than
+/// maxDistForCorrespondence + maxAngularDistForCorrespondence * (distance to
+/// angularDistPivotPoint).
 ///
-/// In a pair, `local` is the point in the other's frame, `global` its foot in the map
+/// In a pair, `local` is the point in the other's frame, `global` its projection in the map
 /// frame, `globalIdx` the component, and errorSquareAfterTransformation their squared
 /// distance, which stays exact far from the map frame's origin, where `global`, a float,
 /// does not: 0.25 m at 4000 km, 1 mm within 8 km.
@@ -43,10 +44,10 @@ class SurfaceMatching {
     /// of the component's mean.
     ///
     /// There is one pair a point, also without onlyKeepTheClosest. With onlyUniqueRobust,
-    /// only the closest is kept of points with the very same foot (the ends of a surface).
-    /// Points that are not finite are left out. Results are, as MRPT's own: the share of
-    /// points with a foot, and the mean (in spite of its name) of squared distances, both
-    /// before onlyUniqueRobust. Both are 0 if there is no pair.
+    /// only the closest is kept of points with the very same projection (the ends of a
+    /// surface). Points that are not finite are left out. Results are, as MRPT's own: the
+    /// share of points with a projection, and the mean (in spite of its name) of squared
+    /// distances, both before onlyUniqueRobust. Both are 0 if there is no pair.
     ///
     /// Throws std::invalid_argument if decimation_other_map_points is 0 or not above
     /// offset_other_map_points.

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "hgmm/map_params.h"
+#include "hgmm/params.h"
 #include "hgmm/scan.h"
 
 /// Where MRPT's types and the model's meet.

@@ -1,0 +1,36 @@
+#pragma once
+#include <atomic>
+#include <memory>
+#include <mutex>
+
+namespace hgmm {
+
+/// A value that the first of possibly several readers makes.
+template <typename T>
+class Lazy {
+ public:
+    /// @param make returns a std::unique_ptr<T>
+    template <typename Make>
+    const T& get(Make&& make) {
+        if (const T* value = ready_.load(std::memory_order_acquire)) return *value;
+        const std::lock_guard<std::mutex> lock(mutex_);
+        if (!value_) value_ = make();
+        ready_.store(value_.get(), std::memory_order_release);
+        return *value_;
+    }
+    /// What is there; null before get(). For writers, who are alone.
+    T* value() { return value_.get(); }
+    /// The same for readers.
+    const T* ready() const { return ready_.load(std::memory_order_acquire); }
+    void reset() {
+        ready_.store(nullptr, std::memory_order_release);
+        value_.reset();
+    }
+
+ private:
+    std::unique_ptr<T> value_;
+    std::atomic<const T*> ready_{nullptr};
+    std::mutex mutex_;
+};
+
+}  // namespace hgmm

@@ -1,0 +1,152 @@
+#include "index/box_index.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace hgmm {
+
+BoxIndex::Placement BoxIndex::placementOf(const Box& box) const {
+    const float largest = std::max({box.halfExtent[0], box.halfExtent[1], box.halfExtent[2],
+                                    std::ldexp(1.F, kMinOctave)});
+    Placement p;
+    p.octave = static_cast<std::int8_t>(
+        std::clamp(static_cast<int>(std::ceil(std::log2(largest))) - cells_.finer,
+                   cells_.leastOctave, kMaxOctave));
+    const float scale = perCell(p.octave);
+    for (int d = 0; d < 3; ++d) {
+        p.low[d] = cellOf(box.centre[d] - box.halfExtent[d], scale);
+        p.high[d] = cellOf(box.centre[d] + box.halfExtent[d], scale);
+    }
+    return p;
+}
+
+void BoxIndex::reserve(std::size_t n) {
+    // As maps go, a box touches some four cells that no other one has touched.
+    constexpr std::size_t slotsPerBox = 8;
+    std::size_t slots = 256;
+    while (slots < slotsPerBox * n) slots *= 2;
+    if (slots > slots_.size()) growTable(slots);
+    placements_.reserve(n);
+}
+
+void BoxIndex::growTable(std::size_t slots) {
+    std::vector<Slot> old(slots);
+    old.swap(slots_);
+    const std::size_t mask = slots_.size() - 1;
+    for (const Slot& slot : old) {
+        if (!slot.used()) continue;
+        std::size_t s = hash(slot.key) & mask;
+        while (slots_[s].used()) s = (s + 1) & mask;
+        slots_[s] = slot;
+    }
+}
+
+BoxIndex::Slot& BoxIndex::findOrAdd(std::uint64_t key) {
+    if (2 * (usedSlots_ + 1) > slots_.size()) growTable(2 * slots_.size());
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t s = hash(key) & mask;
+    while (slots_[s].used() && slots_[s].key != key) s = (s + 1) & mask;
+    Slot& slot = slots_[s];
+    if (!slot.used()) {
+        slot.key = key;
+        slot.capacityLog2 = 2;
+        slot.begin = allocate(slot.capacityLog2);
+        ++usedSlots_;
+    }
+    return slot;
+}
+
+std::uint32_t BoxIndex::allocate(unsigned capacityLog2) {
+    std::vector<std::uint32_t>& unused = free_[capacityLog2];
+    if (!unused.empty()) {
+        const std::uint32_t begin = unused.back();
+        unused.pop_back();
+        return begin;
+    }
+    const auto begin = static_cast<std::uint32_t>(pool_.size());
+    pool_.resize(pool_.size() + (std::size_t{1} << capacityLog2));
+    return begin;
+}
+
+void BoxIndex::add(std::uint64_t key, std::uint32_t i) {
+    Slot& slot = findOrAdd(key);
+    if (slot.count == 1U << slot.capacityLog2) {
+        const std::uint32_t larger = allocate(slot.capacityLog2 + 1);
+        std::copy_n(pool_.begin() + slot.begin, slot.count, pool_.begin() + larger);
+        free_[slot.capacityLog2].push_back(slot.begin);
+        slot.begin = larger;
+        ++slot.capacityLog2;
+    }
+    const auto first = pool_.begin() + slot.begin, last = first + slot.count;
+    const auto place = std::upper_bound(first, last, i);
+    std::copy_backward(place, last, last + 1);
+    *place = i;
+    ++slot.count;
+}
+
+bool BoxIndex::remove(std::uint64_t key, std::uint32_t i) {
+    const Slot* found = find(key);
+    if (found == nullptr) return false;
+    const auto first = pool_.begin() + found->begin, last = first + found->count;
+    const auto member = std::find(first, last, i);
+    if (member == last) return false;
+    std::copy(member + 1, last, member);
+    --slots_[static_cast<std::size_t>(found - slots_.data())].count;
+    return true;
+}
+
+void BoxIndex::count(int octave, int boxes) {
+    std::uint32_t& inOctave = boxesInOctave_[octave - kMinOctave];
+    const bool wasUsed = inOctave > 0;
+    inOctave += static_cast<std::uint32_t>(boxes);
+    if (wasUsed == (inOctave > 0)) return;
+    usedOctaveCount_ = 0;
+    for (int o = 0; o < kOctaves; ++o)
+        if (boxesInOctave_[o] > 0)
+            usedOctaves_[usedOctaveCount_++] = static_cast<std::int8_t>(o + kMinOctave);
+}
+
+void BoxIndex::place(std::uint32_t i, const Placement& placement) {
+    if (i > size()) throw std::out_of_range("BoxIndex::update: a gap before it");
+    if (slots_.empty()) growTable(256);
+    if (i == size())
+        placements_.emplace_back();
+    else
+        count(placements_[i].octave, -1);
+    placements_[i] = placement;
+    count(placement.octave, 1);
+}
+
+void BoxIndex::update(std::uint32_t i, const Box& box) {
+    const Placement p = placementOf(box);
+    const bool isNew = i >= size(), stays = !isNew && placements_[i] == p;
+    if (!isNew && !stays) {
+        const Placement& old = placements_[i];
+        forEachCell(old, [&](auto... cell) { remove(keyOf(old.octave, cell...), i); });
+    }
+    place(i, p);
+    if (!stays) forEachCell(p, [&](auto... cell) { add(keyOf(p.octave, cell...), i); });
+}
+
+void BoxIndex::truncate(std::size_t n) {
+    for (; size() > n; placements_.pop_back()) {
+        const Placement gone = placements_.back();
+        const auto i = static_cast<std::uint32_t>(size() - 1);
+        forEachCell(gone, [&](auto... cell) { remove(keyOf(gone.octave, cell...), i); });
+        count(gone.octave, -1);
+    }
+}
+
+void BoxIndex::clear() {
+    *this = BoxIndex(cells_);
+}
+
+std::size_t BoxIndex::liveBytes() const {
+    std::size_t bytes = placements_.capacity() * sizeof(Placement) +
+                        slots_.capacity() * sizeof(Slot) +
+                        pool_.capacity() * sizeof(std::uint32_t);
+    for (const auto& unused : free_) bytes += unused.capacity() * sizeof(std::uint32_t);
+    return bytes;
+}
+
+}  // namespace hgmm

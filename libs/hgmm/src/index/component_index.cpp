@@ -1,0 +1,50 @@
+#include "index/component_index.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace hgmm {
+
+void ComponentIndex::update(const Mixture<3>& mixture, std::uint32_t i) {
+    if (i > factors_.size())
+        throw std::out_of_range("ComponentIndex::update: a gap before it");
+    Gaussian<3> g = mixture[i];
+    BoxIndex::Box box;
+    for (int d = 0; d < 3; ++d) {
+        g.covariance(d, d) += inflationVariance_;
+        box.centre[d] = static_cast<float>(g.mean[d]);
+        box.halfExtent[d] = sigmas_ * static_cast<float>(std::sqrt(g.covariance(d, d)));
+    }
+    if (i == factors_.size())
+        factors_.emplace_back(g);
+    else
+        factors_[i] = Factor(g);
+    boxes_.update(i, box);
+}
+
+void ComponentIndex::rebuild(const Mixture<3>& mixture) {
+    clear();
+    reserve(mixture.size());
+    for (std::uint32_t i = 0; i < mixture.size(); ++i) update(mixture, i);
+}
+
+void ComponentIndex::truncate(std::size_t n) {
+    boxes_.truncate(n);
+    if (factors_.size() > n) factors_.resize(n);
+}
+
+void ComponentIndex::reserve(std::size_t n) {
+    factors_.reserve(n);
+    boxes_.reserve(n);
+}
+
+void ComponentIndex::clear() {
+    factors_.clear();
+    boxes_.clear();
+}
+
+std::size_t ComponentIndex::liveBytes() const {
+    return factors_.capacity() * sizeof(Factor) + boxes_.liveBytes();
+}
+
+}  // namespace hgmm

@@ -1,0 +1,56 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "hgmm/gaussian.h"
+#include "hgmm/mixture.h"
+#include "index/box_index.h"
+
+namespace hgmm {
+
+/// Finds the components near a point at a cost that does not depend on the size of the map,
+/// and keeps them factored for evaluation: a BoxIndex over the bounding boxes of their
+/// `sigmas` ellipsoids.
+class ComponentIndex {
+ public:
+    using Factor = WhitenedGaussian<3, float>;
+
+    /// @param sigmas size of the indexed ellipsoids [sigma], > 0
+    /// @param inflationStd_m isotropic standard deviation added to every component [m], >=
+    /// 0
+    explicit ComponentIndex(float sigmas = kSigmas, float inflationStd_m = 0.F)
+        : sigmas_(sigmas), inflationVariance_(inflationStd_m * inflationStd_m) {}
+
+    static constexpr float kSigmas = 4.F;
+
+    /// Enters every component of a mixture, which must outlive no call: data is copied.
+    void rebuild(const Mixture<3>& mixture);
+    /// Enters or re-enters component i, which must be < size() or the next one.
+    void update(const Mixture<3>& mixture, std::uint32_t i);
+    /// Drops components n, n + 1, ...
+    void truncate(std::size_t n);
+    void clear();
+    /// Makes room for n components in all.
+    void reserve(std::size_t n);
+
+    std::size_t size() const { return factors_.size(); }
+    const Factor& factor(std::uint32_t i) const { return factors_[i]; }
+
+    /// Calls visit(i) for each component whose ellipsoid's box may hold (x, y, z), each
+    /// once, in a fixed order.
+    template <typename Visitor>
+    void visitCandidates(float x, float y, float z, Visitor&& visit) const {
+        boxes_.visitCandidates(x, y, z, visit);
+    }
+
+    /// Heap held [bytes].
+    std::size_t liveBytes() const;
+
+ private:
+    float sigmas_;
+    float inflationVariance_;
+    std::vector<Factor> factors_;
+    BoxIndex boxes_;
+};
+
+}  // namespace hgmm

@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <vector>
+
+#include "base/require_rigid.h"
+#include "base/run_both.h"
+#include "fusion/carving.h"
+#include "fusion/novelty.h"
+#include "fusion/oversized.h"
+#include "fusion/update.h"
+#include "hgmm/em.h"
+#include "hgmm/hierarchy.h"
+#include "hgmm/map.h"
+#include "map/model.h"
+#include "scan/cells.h"
+
+namespace hgmm {
+
+namespace {
+
+/// Local frames start on a lattice of whole metres, so that poses relative to it are exact.
+Eigen::Vector3d latticePoint(const Eigen::Vector3d& p) {
+    return p.array().round();
+}
+
+/// Where the local frame begins, or would with a scan from there.
+Eigen::Vector3d originWith(const Model& model, const Pose& T_map_sensor) {
+    return model.isBlank() ? latticePoint(T_map_sensor.t) : model.origin;
+}
+
+/// Adds known samples to the components that explain them. Returns what each was given.
+std::vector<RayBundle> updateComponents(ComponentStore& store, KnownUpdate update,
+                                        const Eigen::Vector3d& sensorOrigin) {
+    for (std::size_t k = 0; k < update.changed.size(); ++k) {
+        const std::uint32_t i = update.changed[k];
+        const RayBundle& share = update.shares[k];
+        const double after = static_cast<float>(update.components[k].support);
+        const ViewDirection view =
+            merged(store.viewDirections()[i], std::max(after - share.support, 1e-6),
+                   viewFrom(sensorOrigin, share.mean), share.support);
+        store.set(i, update.components[k], view);
+    }
+    return std::move(update.shares);
+}
+
+/// EM from an overestimate, then Algorithm 1 down to the fidelity threshold.
+Mixture<3> fitNovel(const Mixture<3>& samples, const NoveltySplit& split,
+                    const ThicknessLimit& limit, const MapParams& params) {
+    const Mixture<3> novel = selected(samples, split.novel);
+    CellMoments guess = momentsOfCells(novel, limit.sensorOrigin, params.cells);
+    splitOversized(novel, {limit, relearned(split), params.carving.minSupport}, guess);
+    const InitialMixture initial = initialMixture(novel, guess);
+    const Mixture<3> reference =
+        fitSparse(novel, initial.mixture, initial.neighbourhoods, params.em).mixture;
+    HierarchyParams toThreshold = params.hierarchy;
+    toThreshold.levels = 1;
+    return generateHierarchy(reference, toThreshold).levels.front();
+}
+
+/// Appends components of at least `minSupport`: EM leaves some that hardly explain anything
+/// and would still answer. Returns their hits.
+std::vector<RayBundle> addComponents(ComponentStore& store, const Mixture<3>& novel,
+                                     const Eigen::Vector3d& sensorOrigin,
+                                     double minSupport) {
+    std::vector<RayBundle> bundles;
+    for (std::size_t i = 0; i < novel.size(); ++i) {
+        if (!(novel.support[i] >= minSupport)) continue;
+        bundles.push_back(novel[i]);
+        store.add(bundles.back(), viewFrom(sensorOrigin, bundles.back().mean));
+    }
+    return bundles;
+}
+
+/// Removes those of `weakened` that are left with too little support. Returns how many.
+std::size_t removeWeak(ComponentStore& store, std::vector<std::uint32_t> weakened,
+                       double minSupport) {
+    // From the last on, so that the one that takes a removed one's place stays.
+    std::sort(weakened.rbegin(), weakened.rend());
+    weakened.erase(std::unique(weakened.begin(), weakened.end()), weakened.end());
+    std::size_t removed = 0;
+    for (const std::uint32_t i : weakened) {
+        const float support = store.surfaces().support[i];
+        if (support > kNoSupport && support >= minSupport) continue;
+        store.remove(i);
+        ++removed;
+    }
+    return removed;
+}
+
+/// The method on one screen: thesis 3.3.3 to 4.2, and carving.
+void insertSamples(const ScanSamples& scan, const Pose& T_local_sensor, Model& model,
+                   QueryCache& cache, InsertReport& report) {
+    const MapParams& params = model.params;
+    ComponentStore& store = model.components;
+    report.points = scan.points;
+    report.samples = scan.samples_sensor.size();
+    if (scan.samples_sensor.empty()) return;
+    const Eigen::Vector3d& sensorOrigin = T_local_sensor.t;
+    const Mixture<3> samples = transformed(scan.samples_sensor, T_local_sensor);
+    const ThicknessLimit limit{params.novelty.maxThickness, params.cells, params.filter,
+                               sensorOrigin, T_local_sensor.R * scan.normalOfRays_sensor};
+
+    const SensorGeometry geometry{store.viewDirections(), limit};
+    const NoveltySplit split =
+        splitByNovelty(samples, cache.index(), params.novelty, &geometry);
+    std::vector<RayBundle> bundles = updateComponents(
+        store, updateKnown(store.surfaces(), cache.index(), samples, split), sensorOrigin);
+    report.componentsUpdated = bundles.size();
+
+    std::vector<std::uint32_t> weakened;
+    for (const SupportDecay& decay :
+         downweightOversized(store.surfaces(), cache.index(), samples, split)) {
+        store.setSupport(decay.component, decay.support);
+        weakened.push_back(decay.component);
+    }
+    report.componentsOversized = weakened.size();
+
+    if (!split.novel.empty()) {
+        const std::vector<RayBundle> added =
+            addComponents(store, fitNovel(samples, split, limit, params), sensorOrigin,
+                          params.carving.minSupport);
+        bundles.insert(bundles.end(), added.begin(), added.end());
+        report.componentsAdded = added.size();
+    }
+    report.novelSamples = split.novel.size();
+    cache.apply(store.takeChanges());
+
+    const std::vector<std::uint32_t> updatedFree =
+        model.freeSpace.insert(bundles, sensorOrigin, cache.pyramid(),
+                               params.occupancy.band, params.occupancy.freeSpace);
+    for (const std::uint32_t i : seenThrough(store.surfaces(), samples, sensorOrigin,
+                                             cache.grid(), params.carving)) {
+        store.setSupport(i, static_cast<float>(store.surfaces().support[i] *
+                                               params.carving.carvedSupport));
+        weakened.push_back(i);
+        ++report.componentsCarved;
+    }
+    report.componentsRemoved =
+        removeWeak(store, std::move(weakened), params.carving.minSupport);
+    cache.apply(store.takeChanges(), updatedFree);
+}
+
+}  // namespace
+
+InsertReport Map::insert(const Scan& scan) {
+    scan.validate();
+    Model& model = state_->model;
+    if (model.params.modalities.empty() || scan.channels.empty())
+        return insert(samplesOf(scan, model.params), scan.T_map_sensor);
+    InsertReport report;
+    const Eigen::Vector3d origin = originWith(model, scan.T_map_sensor);
+    const Pose T_local_sensor{scan.T_map_sensor.R, scan.T_map_sensor.t - origin};
+    runBoth(
+        [&] {
+            insertSamples(samplesOf(scan, model.params), T_local_sensor, model,
+                          state_->cache, report);
+        },
+        [&] { model.modalities.insert(scan, T_local_sensor, model.params); });
+    if (report.samples > 0) model.origin = origin;
+    return report;
+}
+
+InsertReport Map::insert(const ScanSamples& scan, const Pose& T_map_sensor) {
+    requireRigid(T_map_sensor, "T_map_sensor");
+    InsertReport report;
+    Model& model = state_->model;
+    const Eigen::Vector3d origin = originWith(model, T_map_sensor);
+    insertSamples(scan, {T_map_sensor.R, T_map_sensor.t - origin}, model, state_->cache,
+                  report);
+    if (report.samples > 0) model.origin = origin;
+    return report;
+}
+
+}  // namespace hgmm

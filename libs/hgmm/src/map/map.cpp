@@ -1,0 +1,75 @@
+#include "hgmm/map.h"
+
+#include <utility>
+
+#include "map/model.h"
+
+namespace hgmm {
+
+Map::Map(const MapParams& params) : state_(std::make_unique<State>()) {
+    setParams(params);
+}
+Map::Map(const Map& o) : state_(std::make_unique<State>(*o.state_)) {}
+// What is moved from is an empty map, not a broken one.
+Map::Map(Map&& o) noexcept : Map() {
+    state_.swap(o.state_);
+}
+Map& Map::operator=(const Map& o) {
+    if (this != &o) state_ = std::make_unique<State>(*o.state_);
+    return *this;
+}
+Map& Map::operator=(Map&& o) noexcept {
+    if (this != &o) {
+        Map empty;
+        state_ = std::exchange(o.state_, std::move(empty.state_));
+    }
+    return *this;
+}
+Map::~Map() = default;
+
+const MapParams& Map::params() const {
+    return state_->model.params;
+}
+
+void Map::setParams(const MapParams& params) {
+    params.validate();
+    state_->model.params = params;
+    state_->model.modalities.configure(params);
+    state_->cache.clear();
+}
+
+bool Map::empty() const {
+    return state_->model.components.empty();
+}
+
+void Map::clear() {
+    *this = Map(params());
+}
+
+const Eigen::Vector3d& Map::origin() const {
+    return state_->model.origin;
+}
+
+std::size_t Map::liveBytes() const {
+    const Model& model = state_->model;
+    return sizeof(Map) + sizeof(State) + model.components.liveBytes() +
+           model.freeSpace.liveBytes() + model.modalities.liveBytes() +
+           state_->cache.liveBytes();
+}
+
+bool Model::operator==(const Model& o) const {
+    bool sameParams = params.modalities == o.params.modalities;
+    std::vector<double> mine;
+    forEachField(params, [&](const char*, const auto& v) { mine.push_back(double(v)); });
+    std::size_t k = 0;
+    forEachField(o.params,
+                 [&](const char*, const auto& v) { sameParams &= mine[k++] == double(v); });
+    return sameParams && origin == o.origin && components == o.components &&
+           freeSpace == o.freeSpace && modalities == o.modalities;
+}
+
+bool Map::operator==(const Map& o) const {
+    return state_->model == o.state_->model;
+}
+
+}  // namespace hgmm

@@ -1,0 +1,104 @@
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "hgmm/map.h"
+#include "hgmm/params.h"
+#include "map/model.h"
+
+namespace hgmm {
+
+namespace {
+
+/// Points handled by one task.
+constexpr std::size_t kPointsPerChunk = 256;
+
+void requireLevel(std::size_t level, std::size_t count) {
+    if (level >= count)
+        throw std::out_of_range("Map: no level " + std::to_string(level) + ", only 0 to " +
+                                std::to_string(count - 1));
+}
+
+}  // namespace
+
+std::size_t Map::levelCount() const {
+    return static_cast<std::size_t>(params().hierarchy.levels);
+}
+
+const Mixture<3>& Map::mixture(std::size_t level) const {
+    requireLevel(level, levelCount());
+    return level == 0 ? state_->model.components.surfaces() : state_->cache.mixture(level);
+}
+
+const ViewDirections& Map::viewDirections(std::size_t level) const {
+    requireLevel(level, levelCount());
+    return level == 0 ? state_->model.components.viewDirections()
+                      : state_->cache.viewDirections(level);
+}
+
+const Mixture<4>& Map::freeMixture(std::size_t level) const {
+    requireLevel(level, levelCount());
+    if (level > 0) return state_->cache.freeMixture(level);
+    return state_->model.freeSpace.mixture();
+}
+
+double Map::logDensity(const Eigen::Vector3d& point_map) const {
+    if (empty()) return -std::numeric_limits<double>::infinity();
+    const ComponentIndex& index = state_->cache.index();
+    const Eigen::Vector3f p = (point_map - origin()).cast<float>();
+    double density = -std::numeric_limits<double>::infinity();
+    index.visitCandidates(p.x(), p.y(), p.z(), [&](std::uint32_t j) {
+        density = logAddExp(
+            density, std::log(double(state_->model.components.surfaces().support[j])) +
+                         double(index.factor(j).logPdf(p.data())));
+    });
+    return density - state_->cache.logTotalSupport();
+}
+
+Occupancy Map::occupancy(const Eigen::Vector3d& point_map, std::size_t level) const {
+    requireLevel(level, levelCount());
+    if (empty()) return {};
+    return state_->cache.occupancy(level).at(point_map - origin());
+}
+
+void Map::occupancy(const Eigen::Vector3d* points_map, std::size_t n, Occupancy* answers,
+                    std::size_t level) const {
+    requireLevel(level, levelCount());
+    if (empty()) {
+        std::fill(answers, answers + n, Occupancy{});
+        return;
+    }
+    const OccupancyModel& model = state_->cache.occupancy(level);
+#pragma omp parallel for schedule(dynamic)
+    for (std::size_t chunk = 0; chunk < (n + kPointsPerChunk - 1) / kPointsPerChunk;
+         ++chunk)
+        for (std::size_t i = chunk * kPointsPerChunk;
+             i < std::min(n, (chunk + 1) * kPointsPerChunk); ++i)
+            answers[i] = model.at(points_map[i] - origin());
+}
+
+Eigen::Vector3d Map::occupancyGradient(const Eigen::Vector3d& point_map,
+                                       std::size_t level) const {
+    requireLevel(level, levelCount());
+    if (empty()) return Eigen::Vector3d::Zero();
+    return state_->cache.occupancy(level).gradient(point_map - origin());
+}
+
+std::optional<RayHit> Map::castRay(const Eigen::Vector3d& origin_map,
+                                   const Eigen::Vector3d& direction_map,
+                                   const RayCastParams& params, std::size_t level) const {
+    requireLevel(level, levelCount());
+    requireInRange("maxRange_m", params.maxRange_m, 1e-6, 1e6);
+    requireInRange("minOccupied", params.minOccupied, 1e-6, 1 - 1e-6);
+    const double length = direction_map.norm();
+    if (!origin_map.allFinite() || !std::isfinite(length) || !(length > 0))
+        throw std::invalid_argument(
+            "Map::castRay: needs a finite origin and a finite direction other than zero");
+    if (empty()) return std::nullopt;
+    std::optional<RayHit> hit = state_->cache.occupancy(level).castRay(
+        origin_map - origin(), direction_map / length, params);
+    if (hit) hit->point_map += origin();
+    return hit;
+}
+
+}  // namespace hgmm

@@ -1,0 +1,166 @@
+#include "map/query_cache.h"
+
+#include <cmath>
+
+#include "map/model.h"
+
+namespace hgmm {
+
+namespace {
+
+/// View directions of a level: those of the base components that went into each of its
+/// components.
+ViewDirections viewDirectionsOfLevel(const ComponentStore& base,
+                                     const std::vector<std::uint32_t>& parentOf,
+                                     std::size_t size) {
+    std::vector<ViewDirection> sums(size);
+    std::vector<double> supports(size, 0.0);
+    for (std::size_t i = 0; i < base.size(); ++i) {
+        const std::uint32_t parent = parentOf[i];
+        const ViewDirection view = base.viewDirections()[i];
+        const float support = base.surfaces().support[i];
+        sums[parent] = supports[parent] > 0
+                           ? merged(sums[parent], supports[parent], view, support)
+                           : view;
+        supports[parent] += support;
+    }
+    ViewDirections level;
+    for (const ViewDirection& view : sums) level.pushBack(view);
+    return level;
+}
+
+}  // namespace
+
+void QueryCache::Indices::update(const Mixture<3>& base, std::uint32_t i) {
+    components.update(base, i);
+    const Eigen::Vector3d mean(base.mean[0][i], base.mean[1][i], base.mean[2][i]);
+    grid.update(i, mean);
+    pyramid.update(i, mean);
+}
+
+void QueryCache::Indices::truncate(std::size_t n) {
+    components.truncate(n);
+    grid.truncate(n);
+    pyramid.truncate(n);
+}
+
+const QueryCache::Indices& QueryCache::indices() const {
+    return indices_.get([this] {
+        const Mixture<3>& base = model_.components.surfaces();
+        auto made = std::make_unique<Indices>();
+        made->components.reserve(base.size());
+        made->pyramid.reserve(base.size());
+        for (std::uint32_t i = 0; i < base.size(); ++i) made->update(base, i);
+        return made;
+    });
+}
+
+double QueryCache::logTotalSupport() const {
+    return logTotalSupport_.get([this] {
+        return std::make_unique<double>(
+            std::log(model_.components.surfaces().totalSupport()));
+    });
+}
+
+QueryCache::Level& QueryCache::levelAt(std::size_t level) const {
+    const auto& levels = levels_.get([this] {
+        auto made = std::make_unique<std::vector<std::unique_ptr<Level>>>();
+        for (int l = 0; l < model_.params.hierarchy.levels; ++l)
+            made->push_back(std::make_unique<Level>());
+        return made;
+    });
+    return *levels[level];
+}
+
+const Mixture<3>& QueryCache::mixture(std::size_t level) const {
+    const std::lock_guard<std::mutex> lock(levelsMutex_);
+    return blocks_.levels(model_.components.surfaces(), model_.params.hierarchy)[level - 1];
+}
+
+/// Under the lock.
+QueryCache::Level& QueryCache::upperLevel(std::size_t level) const {
+    Level& upper = levelAt(level);
+    if (upper.hasFeatures) return upper;
+    const std::size_t size =
+        blocks_.levels(model_.components.surfaces(), model_.params.hierarchy)[level - 1]
+            .size();
+    upper.viewDirections =
+        viewDirectionsOfLevel(model_.components, blocks_.parentOf(level), size);
+    upper.free = model_.freeSpace.coarsened(static_cast<int>(level));
+    upper.hasFeatures = true;
+    return upper;
+}
+
+const ViewDirections& QueryCache::viewDirections(std::size_t level) const {
+    const std::lock_guard<std::mutex> lock(levelsMutex_);
+    return upperLevel(level).viewDirections;
+}
+
+const Mixture<4>& QueryCache::freeMixture(std::size_t level) const {
+    const std::lock_guard<std::mutex> lock(levelsMutex_);
+    return upperLevel(level).free;
+}
+
+const OccupancyModel& QueryCache::occupancy(std::size_t level) const {
+    return levelAt(level).occupancy.get([this, level] { return makeOccupancy(level); });
+}
+
+std::unique_ptr<OccupancyModel> QueryCache::makeOccupancy(std::size_t level) const {
+    const bool isBase = level == 0;
+    const Mixture<3>& surfaces = isBase ? model_.components.surfaces() : mixture(level);
+    const ViewDirections& views =
+        isBase ? model_.components.viewDirections() : viewDirections(level);
+    const Mixture<4>& free = isBase ? model_.freeSpace.mixture() : freeMixture(level);
+    auto made = std::make_unique<OccupancyModel>(model_.params.occupancy);
+    for (std::uint32_t i = 0; i < surfaces.size(); ++i)
+        made->updateSurface(i, surfaces[i], views[i]);
+    for (std::uint32_t i = 0; i < free.size(); ++i) made->updateFree(i, free[i]);
+    return made;
+}
+
+void QueryCache::apply(const Changes& changes,
+                       const std::vector<std::uint32_t>& updatedFree) {
+    const ComponentStore& store = model_.components;
+    logTotalSupport_.reset();
+    blocks_.apply(changes);
+    if (Indices* indices = indices_.value()) {
+        indices->truncate(changes.size);
+        for (const std::uint32_t i : changes.updated) indices->update(store.surfaces(), i);
+    }
+    auto* levels = levels_.value();
+    if (levels == nullptr) return;
+    if (OccupancyModel* base = levels->front()->occupancy.value()) {
+        base->truncateSurfaces(changes.size);
+        for (const std::uint32_t i : changes.updated)
+            base->updateSurface(i, store.surfaces()[i], store.viewDirections()[i]);
+        for (const std::uint32_t i : updatedFree)
+            base->updateFree(i, model_.freeSpace.mixture()[i]);
+    }
+    for (std::size_t level = 1; level < levels->size(); ++level)
+        levels->at(level) = std::make_unique<Level>();
+}
+
+void QueryCache::clear() {
+    indices_.reset();
+    logTotalSupport_.reset();
+    levels_.reset();
+    blocks_ = LevelBlocks();
+}
+
+std::size_t QueryCache::liveBytes() const {
+    const std::lock_guard<std::mutex> lock(levelsMutex_);
+    std::size_t bytes = blocks_.liveBytes();
+    if (indices_.ready() != nullptr)
+        bytes += indices_.ready()->components.liveBytes() +
+                 indices_.ready()->grid.liveBytes() + indices_.ready()->pyramid.liveBytes();
+    if (levels_.ready() == nullptr) return bytes;
+    for (const auto& level : *levels_.ready()) {
+        if (const OccupancyModel* occupancy = level->occupancy.ready())
+            bytes += occupancy->liveBytes();
+        bytes += level->viewDirections.size() * 4 * sizeof(float) +
+                 level->free.size() * sizeof(float) * (1 + 4 + Mixture<4>::packed);
+    }
+    return bytes;
+}
+
+}  // namespace hgmm

@@ -1,0 +1,269 @@
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <type_traits>
+
+#include "base/byte_stream.h"
+#include "hgmm/map.h"
+#include "io/component_codec.h"
+#include "io/exact_codec.h"
+#include "io/modality_archive.h"
+#include "map/model.h"
+
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "saved maps are little-endian");
+static_assert(std::numeric_limits<float>::is_iec559 &&
+                  std::numeric_limits<double>::is_iec559,
+              "saved maps hold IEEE 754 numbers");
+
+namespace hgmm {
+
+namespace {
+
+// Layout:
+//   char[4] "HGMM", u32 version, u64 size of the whole buffer, u64 checksum of what
+//   follows, u32 fields, then each: u8 length, name, f64 value   (MapParams), f64[3] origin
+// version 1 goes on:
+//   surfaces as exact mixture; there are no views and no free space
+// version 2 goes on:
+//   u8 encoding
+//   exact: surfaces, four f32 arrays of views, free space with i8 octaves behind it, an
+//   empty mixture (once free space of surfaces)
+//   compact: u64 bytes, then encodeSurfaces; twice u64 bytes, then encodeFree, the second
+//   empty
+// version 3 goes on:
+//   modalities (putModalities). Maps that model none are written as version 2.
+// An exact mixture is that of putMixture.
+constexpr char kMagic[4] = {'H', 'G', 'M', 'M'};
+constexpr std::uint32_t kVersion = 3, kWithoutModalities = 2;
+constexpr std::size_t kHeader = 24;
+constexpr char kThesisFreeSpace[] =
+    "saved map: freeSpaceModel = 1, the thesis' own free space, is no part of the map any "
+    "more; hgmm-replay --study free-space shows it";
+
+/// 64-bit checksum, eight bytes at a time: copies inside a particle filter go through here.
+std::uint64_t checksum(const std::uint8_t* data, std::size_t size) {
+    std::uint64_t h = 0xCBF29CE484222325ULL ^ size;
+    const auto mix = [&h](std::uint64_t word) {
+        h = (h ^ word) * 0x9E3779B97F4A7C15ULL;
+        h ^= h >> 32U;
+    };
+    for (; size >= 8; data += 8, size -= 8) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, data, 8);
+        mix(word);
+    }
+    std::uint64_t tail = 0;
+    std::memcpy(&tail, data, size);
+    mix(tail);
+    return h;
+}
+
+void putParams(Writer& out, const MapParams& params) {
+    std::uint32_t fields = 0;
+    forEachField(params, [&](const char*, const auto&) { ++fields; });
+    out.put(fields);
+    forEachField(params, [&](const char* name, const auto& value) {
+        const auto length = static_cast<std::uint8_t>(std::strlen(name));
+        out.put(length);
+        out.put(name, length);
+        out.put(static_cast<double>(value));
+    });
+}
+
+/// Fields are found by name: one that a file does not hold keeps its default.
+MapParams getParams(Reader& in) {
+    MapParams params;
+    const auto fields = in.get<std::uint32_t>();
+    for (std::uint32_t f = 0; f < fields; ++f) {
+        std::string name(in.get<std::uint8_t>(), '\0');
+        in.get(name.data(), name.size());
+        const auto value = in.get<double>();
+        if (name == "freeSpaceModel" && value != 0.0) throw FormatError(kThesisFreeSpace);
+        forEachField(params, [&](const char* known, auto& member) {
+            using Member = std::remove_reference_t<decltype(member)>;
+            if (name != known) return;
+            if (!(std::abs(value) < std::numeric_limits<int>::max()))
+                throw FormatError("saved map: parameter " + name + " is out of range");
+            member = static_cast<Member>(value);
+        });
+    }
+    try {
+        params.validate();
+    } catch (const std::invalid_argument& e) {
+        throw FormatError(std::string("saved map: parameter ") + e.what());
+    }
+    return params;
+}
+
+/// Returns a reader behind the header of a buffer that is whole and undamaged.
+Reader openBuffer(const std::uint8_t* data, std::size_t size, std::uint32_t& version) {
+    Reader in(data, size);
+    char magic[4] = {};
+    if (size >= sizeof(magic)) in.get(magic, sizeof(magic));
+    if (std::memcmp(magic, kMagic, sizeof(magic)) != 0)
+        throw FormatError("not a saved HGMM map");
+    version = in.get<std::uint32_t>();
+    if (version < 1 || version > kVersion)
+        throw FormatError("saved map of format version " + std::to_string(version) +
+                          ": this library reads versions 1 to " + std::to_string(kVersion));
+    const auto whole = in.get<std::uint64_t>();
+    if (whole != size)
+        throw FormatError("saved map: " + std::to_string(whole) + " bytes were written, " +
+                          std::to_string(size) + " are here");
+    if (in.get<std::uint64_t>() != checksum(data + kHeader, size - kHeader))
+        throw FormatError("saved map: it is damaged (checksum)");
+    return in;
+}
+
+std::vector<int> octavesOf(const FreeSpace& space) {
+    std::vector<int> octaves;
+    for (std::size_t i = 0; i < space.mixture().size(); ++i)
+        octaves.push_back(space.octave(i));
+    return octaves;
+}
+
+FreeSpace freeSpaceFrom(const Mixture<4>& mixture, const std::vector<int>& octaves) {
+    FreeSpace space;
+    space.reserve(mixture.size());
+    for (std::size_t i = 0; i < mixture.size(); ++i) {
+        if (std::abs(octaves[i]) > 40)
+            throw FormatError("saved map: the octave of a free component is out of range");
+        space.pushBack(mixture[i], octaves[i]);
+    }
+    return space;
+}
+
+template <int D>
+void checkMixture(const Mixture<D>& mixture) {
+    try {
+        mixture.check();
+    } catch (const std::logic_error& e) {
+        throw FormatError(std::string("saved map: ") + e.what());
+    }
+}
+
+void checkViewDirections(const ViewDirections& views) {
+    views.forEachArray([](const std::vector<float>& array) {
+        for (const float v : array)
+            if (!std::isfinite(v)) throw FormatError("saved map: a view is not finite");
+    });
+}
+
+/// Free components of the surfaces' own: of a model that maps had before version 0.2.
+void refuseFreeOfSurfaces(const Mixture<4>& freeOfSurfaces) {
+    if (!freeOfSurfaces.empty()) throw FormatError(kThesisFreeSpace);
+}
+
+void putComponents(Writer& out, const Model& model, Encoding encoding) {
+    const Mixture<3>& surfaces = model.components.surfaces();
+    const ViewDirections& views = model.components.viewDirections();
+    const Mixture<4>& free = model.freeSpace.mixture();
+    const std::vector<int> octaves = octavesOf(model.freeSpace);
+    out.put(static_cast<std::uint8_t>(encoding));
+    if (encoding == Encoding::compact) {
+        putSection(out, [&](auto& b) {
+            encodeSurfaces(surfaces, views, blockOrder(surfaces), b);
+        });
+        putSection(out, [&](auto& b) { encodeFree(free, octaves, blockOrder(free), b); });
+        putSection(out, [&](auto& b) { encodeFree({}, {}, {}, b); });
+        return;
+    }
+    putMixture(out, surfaces);
+    views.forEachArray([&](const std::vector<float>& a) { out.put(a.data(), a.size()); });
+    putMixture(out, free);
+    for (const int octave : octaves) out.put(static_cast<std::int8_t>(octave));
+    putMixture(out, Mixture<4>());
+}
+
+void getExact(Reader& in, std::uint32_t version, Model& model) {
+    Mixture<3> surfaces = getMixture<3>(in);
+    checkMixture(surfaces);
+    ViewDirections views;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) views.pushBack({});
+    if (version > 1) {
+        views.forEachArray(
+            [&](std::vector<float>& array) { in.get(array.data(), array.size()); });
+        checkViewDirections(views);
+    }
+    model.components = ComponentStore(std::move(surfaces), std::move(views));
+    if (version == 1) return;
+    const Mixture<4> free = getMixture<4>(in);
+    std::vector<int> octaves(free.size());
+    for (int& octave : octaves) octave = in.get<std::int8_t>();
+    checkMixture(free);
+    model.freeSpace = freeSpaceFrom(free, octaves);
+    refuseFreeOfSurfaces(getMixture<4>(in));
+}
+
+void getCompact(Reader& in, Model& model) {
+    Mixture<3> surfaces;
+    ViewDirections views;
+    getSection(in, [&](const std::uint8_t* data, std::size_t bytes) {
+        return decodeSurfaces(data, bytes, surfaces, views);
+    });
+    checkMixture(surfaces);
+    model.components = ComponentStore(std::move(surfaces), std::move(views));
+    Mixture<4> free, ofSurfaces;
+    std::vector<int> octaves, none;
+    getSection(in, [&](const std::uint8_t* data, std::size_t bytes) {
+        return decodeFree(data, bytes, free, octaves);
+    });
+    checkMixture(free);
+    model.freeSpace = freeSpaceFrom(free, octaves);
+    getSection(in, [&](const std::uint8_t* data, std::size_t bytes) {
+        return decodeFree(data, bytes, ofSurfaces, none);
+    });
+    refuseFreeOfSurfaces(ofSurfaces);
+}
+
+void getComponents(Reader& in, std::uint32_t version, Model& model) {
+    const auto encoding =
+        version == 1 ? static_cast<std::uint8_t>(Encoding::exact) : in.get<std::uint8_t>();
+    if (encoding == static_cast<std::uint8_t>(Encoding::compact))
+        getCompact(in, model);
+    else if (encoding == static_cast<std::uint8_t>(Encoding::exact))
+        getExact(in, version, model);
+    else
+        throw FormatError("saved map: unknown encoding " + std::to_string(encoding));
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> Map::save(Encoding encoding) const {
+    const Model& model = state_->model;
+    std::vector<std::uint8_t> buffer;
+    Writer out(buffer);
+    out.put(kMagic, sizeof(kMagic));
+    out.put(model.params.modalities.empty() ? kWithoutModalities : kVersion);
+    out.put(std::uint64_t{0});
+    out.put(std::uint64_t{0});
+    putParams(out, model.params);
+    out.put(model.origin.data(), 3);
+    putComponents(out, model, encoding);
+    if (!model.params.modalities.empty())
+        putModalities(out, model.params, model.modalities, encoding);
+
+    const std::uint64_t size = buffer.size();
+    const std::uint64_t sum = checksum(buffer.data() + kHeader, size - kHeader);
+    std::memcpy(buffer.data() + 8, &size, sizeof(size));
+    std::memcpy(buffer.data() + 16, &sum, sizeof(sum));
+    return buffer;
+}
+
+Map Map::load(const std::uint8_t* data, std::size_t size) try {
+    std::uint32_t version = 0;
+    Reader in = openBuffer(data, size, version);
+    Map map(getParams(in));
+    Model& model = map.state_->model;
+    in.get(model.origin.data(), 3);
+    if (!model.origin.allFinite()) throw FormatError("saved map: its origin is not finite");
+    getComponents(in, version, model);
+    if (version > kWithoutModalities) model.modalities = getModalities(in, model.params);
+    if (in.left() != 0) throw FormatError("saved map: bytes are left over at its end");
+    return map;
+} catch (const std::out_of_range& e) {
+    throw FormatError(std::string("saved map: ") + e.what());
+}
+
+}  // namespace hgmm

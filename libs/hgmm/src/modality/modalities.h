@@ -1,0 +1,53 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "hgmm/modality.h"
+#include "modality/modality_group.h"
+
+namespace hgmm {
+
+/// All modalities of a map. Those of which every scan had all or none at each of its points
+/// form a group; a scan that has only some of them takes the group apart.
+class Modalities {
+ public:
+    Modalities() = default;
+    Modalities(const Modalities& o);
+    Modalities(Modalities&& o) noexcept = default;
+    Modalities& operator=(const Modalities& o);
+    Modalities& operator=(Modalities&& o) noexcept = default;
+    ~Modalities() = default;
+
+    /// Learns the channels of a scan that params.modalities names. Values that are not
+    /// finite, or beyond 1e6, count as not measured at their point.
+    void insert(const Scan& scan, const Pose& T_local_sensor, const MapParams& params);
+    /// Adds what another map knows of params.modalities.
+    void merge(const Modalities& other, const Pose& T_local_other, const MapParams& params);
+    /// Forgets modalities that params.modalities does not name, and takes over the number
+    /// and sizes of levels.
+    void configure(const MapParams& params);
+
+    /// Null if it was never measured.
+    const ModalityMap* find(const std::string& name) const;
+    const std::vector<ModalityGroup>& groups() const { return groups_; }
+    /// For loading.
+    void add(ModalityGroup group);
+
+    std::size_t liveBytes() const;
+    bool operator==(const Modalities& o) const { return groups_ == o.groups_; }
+
+ private:
+    /// `names` by the group that they are in, those in none last.
+    std::vector<std::vector<std::string>> parts(
+        const std::vector<std::string>& names) const;
+    /// Makes `names` a group of its own: new, or taken out of the one that holds them
+    /// all.
+    ModalityGroup& isolate(const std::vector<std::string>& names);
+    void relink();
+
+    std::vector<ModalityGroup> groups_;
+    HierarchyParams hierarchy_;
+    std::vector<ModalityMap> maps_;  ///< of all names of all groups
+};
+
+}  // namespace hgmm

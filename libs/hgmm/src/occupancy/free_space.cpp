@@ -1,0 +1,168 @@
+#include "occupancy/free_space.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hgmm/params.h"
+#include "mixture/regularized.h"
+
+namespace hgmm {
+
+namespace {
+
+/// A sensor's own surroundings are left out: rays start there [m].
+constexpr double kSensorSurroundings_m = 0.05;
+
+/// A slab is at most this share of its cell's edge.
+constexpr double kSlabPerCell = 0.5;
+
+/// What one scan adds to the lattice, in order of first touch.
+class ScanCells {
+ public:
+    ScanCells(const Eigen::Vector3d& sensorOrigin, const SurfacePyramid& pyramid,
+              const FreeSpaceBandParams& band, double cellAtOneMetre_m)
+        : sensorOrigin_(sensorOrigin),
+          pyramid_(pyramid),
+          band_(band),
+          cellAtOneMetre_m_(cellAtOneMetre_m) {}
+
+    void add(const RayBundle& bundle) {
+        const Eigen::Vector3d ray = sensorOrigin_ - bundle.mean;
+        const double range = ray.norm(), end = range - kSensorSurroundings_m;
+        const double reach = band_.reach(range);
+        const int smallest = octaveOf(cellAtOneMetre_m_ * std::sqrt(range));
+        const double density =
+            bundle.support * band_.freePerMetre(range) * band_.width(range);
+        for (double w = reach; w < end;) {
+            const LatticeCell cell =
+                cellFor(bundle.mean + ray * (w / range), octaveOf(w), smallest);
+            const double to = std::min(end, w + kSlabPerCell * powerOfTwo(cell.octave));
+            Gaussian<4> slab = raySegmentMoments(bundle, sensorOrigin_, w, to);
+            slab.support = density * std::log(to / w);
+            add(slab, LatticeCell::at(slab.mean.head<3>(), cell.octave));
+            w = to;
+        }
+    }
+
+    const std::vector<LatticeCell>& cells() const { return cells_; }
+    const std::vector<Gaussian<4>>& sums() const { return sums_; }
+
+ private:
+    /// The largest cell around p, within the octaves given, that has no surface beside it.
+    LatticeCell cellFor(const Eigen::Vector3d& p, int largest, int smallest) {
+        LatticeCell cell = LatticeCell::at(p, largest);
+        while (cell.octave > smallest && isNearSurface(cell))
+            cell = LatticeCell::at(p, cell.octave - 1);
+        return cell;
+    }
+
+    bool isNearSurface(const LatticeCell& cell) {
+        const auto [near, isNew] = near_.tryEmplace(cell, false);
+        if (isNew) *near = pyramid_.isNearSurface(cell);
+        return *near;
+    }
+
+    void add(const Gaussian<4>& slab, const LatticeCell& cell) {
+        const auto [number, isNew] =
+            numbers_.tryEmplace(cell, static_cast<std::uint32_t>(cells_.size()));
+        if (isNew) {
+            cells_.push_back(cell);
+            sums_.push_back(slab);
+        } else {
+            sums_[*number] = mergeMoments(sums_[*number], slab);
+        }
+    }
+
+    const Eigen::Vector3d sensorOrigin_;
+    const SurfacePyramid& pyramid_;
+    const FreeSpaceBandParams& band_;
+    const double cellAtOneMetre_m_;
+    LatticeTable<bool> near_;
+    LatticeTable<std::uint32_t> numbers_;
+    std::vector<LatticeCell> cells_;
+    std::vector<Gaussian<4>> sums_;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> FreeSpace::insert(const std::vector<RayBundle>& bundles,
+                                             const Eigen::Vector3d& sensorOrigin,
+                                             const SurfacePyramid& pyramid,
+                                             const FreeSpaceBandParams& band,
+                                             const FreeSpaceParams& params) {
+    ScanCells scan(sensorOrigin, pyramid, band, params.freeCellAtOneMetre_m);
+    for (const RayBundle& bundle : bundles) scan.add(bundle);
+
+    std::vector<std::uint32_t> changed;
+    for (std::size_t s = 0; s < scan.cells().size(); ++s) {
+        const Gaussian<4>& sum = scan.sums()[s];
+        const auto [number, isNew] = componentOf_.tryEmplace(
+            scan.cells()[s], static_cast<std::uint32_t>(cells_.size()));
+        const std::uint32_t i = *number;
+        if (isNew) {
+            cells_.push_back(scan.cells()[s]);
+            mixture_.pushBack(regularized(sum));
+        } else if (mixture_.support[i] < params.freeSettledScans * sum.support) {
+            mixture_.set(i, regularized(mergeMoments(mixture_[i], sum)));
+        } else {
+            continue;
+        }
+        changed.push_back(i);
+    }
+    std::sort(changed.begin(), changed.end());
+    return changed;
+}
+
+std::uint32_t FreeSpace::merge(const Gaussian<4>& component, int octave) {
+    const LatticeCell cell = LatticeCell::at(component.mean.head<3>(), octave);
+    const auto [number, isNew] =
+        componentOf_.tryEmplace(cell, static_cast<std::uint32_t>(cells_.size()));
+    const std::uint32_t i = *number;
+    if (isNew) {
+        cells_.push_back(cell);
+        mixture_.pushBack(regularized(component));
+    } else {
+        mixture_.set(i, regularized(mergeMoments(mixture_[i], component)));
+    }
+    return i;
+}
+
+Mixture<4> FreeSpace::coarsened(int times) const {
+    LatticeTable<std::uint32_t> numbers;
+    std::vector<Gaussian<4>> merged;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        LatticeCell cell = cells_[i];
+        std::int32_t* const axes[3] = {&cell.x, &cell.y, &cell.z};
+        for (int t = 0; t < times; ++t) *axes[t % 3] >>= 1;
+        const auto [number, isNew] =
+            numbers.tryEmplace(cell, static_cast<std::uint32_t>(merged.size()));
+        if (isNew)
+            merged.push_back(mixture_[i]);
+        else
+            merged[*number] = mergeMoments(merged[*number], mixture_[i]);
+    }
+    Mixture<4> mixture;
+    mixture.reserve(merged.size());
+    for (const Gaussian<4>& g : merged) mixture.pushBack(regularized(g));
+    return mixture;
+}
+
+void FreeSpace::reserve(std::size_t n) {
+    mixture_.reserve(n);
+    cells_.reserve(n);
+    componentOf_.reserve(n);
+}
+
+void FreeSpace::pushBack(const Gaussian<4>& component, int octave) {
+    const LatticeCell cell = LatticeCell::at(component.mean.head<3>(), octave);
+    componentOf_.tryEmplace(cell, static_cast<std::uint32_t>(cells_.size()));
+    cells_.push_back(cell);
+    mixture_.pushBack(component);
+}
+
+std::size_t FreeSpace::liveBytes() const {
+    return mixture_.support.capacity() * sizeof(float) * (1 + 4 + Mixture<4>::packed) +
+           cells_.capacity() * sizeof(LatticeCell) + componentOf_.liveBytes();
+}
+
+}  // namespace hgmm

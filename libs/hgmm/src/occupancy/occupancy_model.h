@@ -1,0 +1,123 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "base/lazy.h"
+#include "hgmm/distance.h"
+#include "hgmm/gaussian.h"
+#include "hgmm/occupancy.h"
+#include "hgmm/regression.h"
+#include "hgmm/view_directions.h"
+#include "index/box_index.h"
+#include "occupancy/free_space.h"
+
+namespace hgmm {
+
+/// The unified model of occupancy (thesis 4.3) of one level, prepared for queries:
+/// surface components with their bands and free-space components, weighed by their supports
+/// (thesis eq. (4.14)), with an index over both.
+///
+/// A surface component's W is evaluated exactly as FreeSpaceBandParams describes it.
+///
+/// The unexplored has a prior: at a point where components have the densities p_j(x),
+/// relative to their own peaks (and sharpened along their extents, see extentSigmas), what
+/// they say counts K / (K + k), K = sum_j p_j(x) and k = exp(-knownSigmas^2 / 2). It
+/// depends neither on the size of the map nor on counts.
+///
+/// Positions are in the local frame. Const member functions may be called from several
+/// threads at once.
+class OccupancyModel {
+ public:
+    /// Components are felt up to this distance [sigma].
+    static constexpr double kSigmas = kReachSigmas;
+
+    /// Throws std::invalid_argument naming the field.
+    explicit OccupancyModel(const OccupancyParams& params);
+
+    /// Enters or re-enters surface component i <= number of those entered.
+    void updateSurface(std::uint32_t i, const Gaussian<3>& surface,
+                       const ViewDirection& view);
+    /// Drops surface components n, n + 1, ...
+    void truncateSurfaces(std::size_t n);
+    /// Enters or re-enters free component i <= number of those entered.
+    void updateFree(std::uint32_t i, const Gaussian<4>& component);
+
+    /// A point that is not finite is unknown.
+    Occupancy at(const Eigen::Vector3d& point) const;
+    /// Gradient of Occupancy::occupied [1/m].
+    Eigen::Vector3d gradient(const Eigen::Vector3d& point) const;
+    /// As Map::castRay. `direction` is a unit vector.
+    std::optional<RayHit> castRay(const Eigen::Vector3d& origin,
+                                  const Eigen::Vector3d& direction,
+                                  const RayCastParams& params) const;
+
+    std::size_t liveBytes() const;
+
+ private:
+    /// A surface component with its band, whitened: v is its view.
+    struct Band {
+        WhitenedGaussian<3, float> whitened;
+        std::array<float, 3> v{};   ///< zero without a view
+        float viewPrecision = 0.F;  ///< |v|^2 = u^T Sigma^-1 u [1/m^2]
+        float width_m = 0.F, reach_m = 0.F;
+        float freePerMetre = 0.F;
+        float peak = 0.F;  ///< support times density at the mean [1/m^3]
+    };
+    /// A component over (X, W) for thesis eq. (4.4) to (4.9).
+    struct Joint {
+        WhitenedGaussian<3, float> place;
+        std::array<float, 3> slope{};  ///< Sigma_XX^-1 Sigma_XW
+        float meanW_m = 0.F, varianceW_m2 = 0.F;
+        float peak = 0.F;  ///< support times density at the mean [1/m^3]
+    };
+    /// Sums over components, all relative to their supports.
+    template <typename T>
+    struct Sums {
+        T occupied = 0.0, free = 0.0;  ///< density [1/m^3]
+        T known = 0.0;                 ///< K
+        double distance = 0.0, squaredDistance = 0.0;
+    };
+    struct Bounds {
+        std::array<float, 3> low, high;  ///< [m]
+    };
+    /// Where a ray is near one component, along the ray.
+    struct Interval {
+        double start_m, end_m;  ///< within 4 sigma, and within the part that is looked at
+        double peak_m, sigma_m;
+    };
+
+    template <typename T>
+    Sums<T> sums(const T* x) const;
+    template <typename T>
+    void addBand(const Band& band, const T* x, Sums<T>& sums) const;
+    template <typename T>
+    void addFree(const Joint& joint, const T* x, Sums<T>& sums) const;
+    /// First and last distance at which the line from `start` along `direction` may meet a
+    /// surface; the first is beyond the last if there is none.
+    std::pair<double, double> spanAlong(const Eigen::Vector3d& start,
+                                        const Eigen::Vector3d& direction) const;
+    std::vector<Interval> intervals(const Eigen::Vector3d& origin,
+                                    const Eigen::Vector3d& direction, double from_m,
+                                    double to_m) const;
+    std::optional<double> firstOccupied(const Eigen::Vector3d& origin,
+                                        const Eigen::Vector3d& direction,
+                                        const Interval& interval, double minOccupied) const;
+    bool crossesUnknown(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                        double to_m) const;
+
+    static Joint jointOf(const Gaussian<4>& g);
+
+    OccupancyParams params_;
+    double unknownDensity_;  ///< k
+    double sharpness_;       ///< of extents against thickness
+    std::vector<Band> bands_;
+    std::vector<Joint> freeJoints_;
+    BoxIndex bandBoxes_;     ///< surfaces with their bands
+    BoxIndex surfaceBoxes_;  ///< surfaces alone, for rays
+    BoxIndex freeBoxes_;
+    std::vector<BoxIndex::Box> extents_;  ///< of surfaces, kSigmas to each side
+    mutable Lazy<Bounds> bounds_;         ///< of all extents
+};
+
+}  // namespace hgmm
