@@ -86,6 +86,8 @@ struct EmParams {
 
 /// Algorithm 1 of the thesis (3.3.2).
 struct HierarchyParams {
+    static constexpr double kLargestSimilarity = 1e7;  ///< any two merge at it [nat]
+
     int levels = 5;  ///< L, levels kept from the fidelity threshold up [count], >= 1
     double similarityStart = 0.9;  ///< lambda_d of the first merge pass [nat], > 0
     double similarityStep = 0.2;   ///< added to lambda_d after each pass [nat], >= 0

@@ -8,13 +8,6 @@
 
 namespace hgmm {
 
-namespace {
-
-/// Any two components merge at it [nat].
-constexpr double kLargestSimilarity = 1e7;
-
-}  // namespace
-
 void FilterParams::validate() const {
     requireInRange("leafAtOneMetre_m", leafAtOneMetre_m, 5e-3, 10.0);
     requireInRange("minLeaf_m", minLeaf_m, 1e-4, 100.0);

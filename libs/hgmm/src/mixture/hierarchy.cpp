@@ -15,9 +15,6 @@ namespace hgmm {
 
 namespace {
 
-/// Components farther apart than this [nat] never merge: 4500 standard deviations.
-constexpr double kLargestSimilarity = 1e7;
-
 /// KL(G_0 || G_l) for one level after the other. A component of G_0 keeps its counterpart
 /// in G_l as long as that does not merge; then only merged ones can have come nearer.
 template <int D>
@@ -89,7 +86,7 @@ Mixture<D> mergeToSize(const Mixture<D>& mixture, std::size_t size,
     std::vector<std::uint32_t> all(mixture.size());
     std::iota(all.begin(), all.end(), 0U);
     double similarity = params.similarityStart;
-    while (level.size() > size && similarity < kLargestSimilarity) {
+    while (level.size() > size && similarity < HierarchyParams::kLargestSimilarity) {
         MergeSweep<D> sweep(level, similarity);
         level = sweep.run();
         for (std::uint32_t& parent : all) parent = sweep.parentOf()[parent];
@@ -121,7 +118,7 @@ Hierarchy<D> generateHierarchy(const Mixture<D>& reference, const HierarchyParam
         }
         const bool mayMerge = smaller || params.similarityStep > 0;
         similarity = raised(similarity, params.similarityStep);
-        return mayMerge && levels.back().size() > 1 && similarity < kLargestSimilarity;
+        return mayMerge && levels.back().size() > 1 && similarity < HierarchyParams::kLargestSimilarity;
     };
     bool more = reference.size() > 1;
     while (more && !kneeIsKnown(out.curve)) more = pass();
