@@ -12,6 +12,7 @@
 # file column is generated, but for equations without a tag: there it says `none: WHY`, written by hand.
 # In all tables of the page, names in backticks must occur in the files of their row. Every source file that
 # the page names must exist.
+# shellcheck disable=SC2016  # backticks here are Markdown's
 set -euo pipefail
 export LC_ALL=C
 here=$(cd "$(dirname "$0")/.." && pwd)
@@ -117,6 +118,7 @@ write() {
         echo '| --- | --- | --- |'
         for equation in $(printf '%s\n' "${!columnOf[@]}" "${!taggedIn[@]}" | sort -u | byEquation); do
             column=${columnOf[$equation]-}
+            # shellcheck disable=SC2086  # a list of files without blanks
             [[ -z ${taggedIn[$equation]-} ]] || column=$(links ${taggedIn[$equation]})
             echo "| ($equation) | ${descriptionOf[$equation]-} | $column |"
         done
