@@ -39,18 +39,18 @@ void generate(const std::vector<std::uint32_t>& members, const Mixture<3>& base,
               const HierarchyParams& params, std::vector<Mixture<3>>& levels,
               std::vector<std::vector<std::uint32_t>>& parentOf) {
     Mixture<3> level;
-    std::vector<std::uint32_t> held, next;
+    std::vector<std::uint32_t> parents, next;
     for (const std::uint32_t i : members) {
-        held.push_back(static_cast<std::uint32_t>(level.size()));
+        parents.push_back(static_cast<std::uint32_t>(level.size()));
         level.pushBack(base[i]);
     }
     for (int l = 1; l < params.levels; ++l) {
         const auto size =
             static_cast<std::size_t>(params.levelRatio * double(level.size()));
         level = mergeToSize(level, std::max<std::size_t>(size, 1), params, &next);
-        for (std::uint32_t& h : held) h = next[h];
+        for (std::uint32_t& h : parents) h = next[h];
         levels.push_back(level);
-        parentOf.push_back(held);
+        parentOf.push_back(parents);
     }
 }
 
@@ -148,8 +148,8 @@ std::size_t LevelBlocks::liveBytes() const {
         bytes += nodeBytes + sizeof(entry) +
                  entry.second.members.capacity() * sizeof(std::uint32_t);
         for (const Mixture<3>& level : entry.second.levels) bytes += bytesOf(level);
-        for (const auto& held : entry.second.parentOf)
-            bytes += held.capacity() * sizeof(std::uint32_t);
+        for (const auto& parents : entry.second.parentOf)
+            bytes += parents.capacity() * sizeof(std::uint32_t);
     }
     return bytes;
 }

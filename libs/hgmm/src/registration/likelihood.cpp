@@ -36,7 +36,7 @@ double kernel(float squaredDistance) {
 /// not touched by it. Each octave more doubles the memory for less and less speed.
 constexpr int kFiner = 3;
 
-/// Narrower softening does not make cells smaller still: there would be several times as
+/// A narrower kernel does not make cells smaller still: there would be several times as
 /// many, hardly faster to ask [m].
 constexpr double kLeastForCells_m = 0.02;
 
@@ -52,12 +52,12 @@ BoxIndex::Cells cellsFor(double kernelWidth_m, double outlierRatio) {
     return {kFiner, octave};
 }
 
-/// Variance that the softening adds along an axis [m^2]: all of it across what is thinner,
+/// Variance that the kernel adds along an axis [m^2]: all of it across what is thinner,
 /// next to nothing along what is longer.
-double softening(double halfEdge_m2, double softeningVariance_m2) {
-    if (softeningVariance_m2 == 0) return 0;
-    const double thin = softeningVariance_m2 / (softeningVariance_m2 + halfEdge_m2);
-    return softeningVariance_m2 * thin * thin;
+double widening(double halfEdge_m2, double kernelVariance_m2) {
+    if (kernelVariance_m2 == 0) return 0;
+    const double thin = kernelVariance_m2 / (kernelVariance_m2 + halfEdge_m2);
+    return kernelVariance_m2 * thin * thin;
 }
 
 /// How far the extent along an axis is one of the surface, from 0 to 1, and not spread
@@ -151,7 +151,7 @@ void SurfaceLikelihood::Impl::enter(const Mixture<3>& mixture, std::uint32_t i) 
         const double halfEdge_m2 = 3 * variance_m2 * along;
         const double s =
             std::sqrt(thickness_m2 + (1 - along) * (variance_m2 - thickness_m2) +
-                      softening(halfEdge_m2, kernelVariance_m2_));
+                      widening(halfEdge_m2, kernelVariance_m2_));
         const double halfEdge = std::sqrt(halfEdge_m2);
         const Eigen::Vector3d axis = solver.eigenvectors().col(a);
         for (int d = 0; d < 3; ++d) patch.axes[a][d] = static_cast<float>(axis[d] / s);

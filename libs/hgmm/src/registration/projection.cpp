@@ -166,22 +166,22 @@ auto SurfaceProjection<D>::mostLikely(const Point& point, float radius_m) const
     -> std::optional<Projection> {
     if (!isFinite(point) || !(radius_m > 0)) return {};
     const float bound = radius_m * radius_m;
-    const float softening = kKernelWidthPerRadius * kKernelWidthPerRadius * bound;
+    const float kernelVariance_m2 = kKernelWidthPerRadius * kKernelWidthPerRadius * bound;
     std::optional<Projection> best;
     float bestMahalanobis = std::numeric_limits<float>::infinity();
-    // Within the radius, (distance to the surface)^2 / (thickness^2 + softening^2) is a
+    // Within the radius, (distance to the surface)^2 / (thickness^2 + kernel width^2) is a
     // lower bound of the squared Mahalanobis distance: of what is beyond the extent along
     // an axis, the share is the greater the longer the surface.
     static_assert(kKernelWidthPerRadius * kExtentSigmas >= 1);
     const auto prune = [&](const Node& node, float squaredDistance_m2) {
         return !(squaredDistance_m2 < bound) ||
-               squaredDistance_m2 > bestMahalanobis * (node.thickest_m2 + softening);
+               squaredDistance_m2 > bestMahalanobis * (node.thickest_m2 + kernelVariance_m2);
     };
     visitNear(point, prune, [&](const Surface& surface) {
         const Point offset = alongAxes(surface, point);
         float mahalanobis = 0;
         for (int a = 0; a < D; ++a)
-            mahalanobis += offset[a] * offset[a] / (surface.variance[a] + softening);
+            mahalanobis += offset[a] * offset[a] / (surface.variance[a] + kernelVariance_m2);
         const bool better =
             mahalanobis < bestMahalanobis ||
             (best && mahalanobis == bestMahalanobis && surface.component < best->component);
