@@ -55,8 +55,7 @@ std::vector<ReplayedBaseline> makeBaselines(const Options& options, SensorKind s
 }
 
 /// Empty maps, and how they are to be tested.
-Replayed prepare(const Recording& recording,
-                 std::unique_ptr<mrpt::maps::CHGMMOccupancyMap> map,
+Replayed prepare(const Recording& recording, mrpt::maps::CHGMMOccupancyMap::Ptr map,
                  const Options& options) {
     const NearBand near = options.near.value_or(nearBandOf(recording.sensor()));
     Replayed replayed{std::move(map),
@@ -126,8 +125,7 @@ void useScan(hgmm::Scan scan, std::size_t index, const Sampling& sampling,
 
 }  // namespace
 
-Replayed replayScans(Recording& recording,
-                     std::unique_ptr<mrpt::maps::CHGMMOccupancyMap> map,
+Replayed replayScans(Recording& recording, mrpt::maps::CHGMMOccupancyMap::Ptr map,
                      const Options& options) {
     Replayed replayed = prepare(recording, std::move(map), options);
     Run& run = replayed.run;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hgmm/mrpt_bridge/mrpt_compat.h"
 #include "scan_readers.h"
 
 using namespace mrpt::obs;
@@ -32,7 +33,7 @@ float measured(float value) {
 /// and files also hold the counts of 8 or 16 bits; which it is shows in the largest.
 float intensityScale(const mrpt::maps::CPointsMapXYZI& cloud) {
     float largest = 0.F;
-    for (const float value : cloud.getPointsBufferRef_intensity())
+    for (const float value : intensitiesOf(cloud))
         if (std::isfinite(value)) largest = std::max(largest, value);
     return largest <= 1.F ? 1.F : largest <= 255.F ? 1.F / 255.F : 1.F / 65535.F;
 }
