@@ -212,6 +212,52 @@ auto SurfaceProjection<D>::nearest(const Point& point) const -> std::optional<Fo
 }
 
 template <int D>
+auto SurfaceProjection<D>::neighbours(const Point& point, std::size_t count,
+                                      float maxSquaredDistance_m2) const
+    -> std::vector<Foot> {
+    std::vector<Foot> kept;  // a heap, the farthest first
+    if (count == 0 || !isFinite(point)) return kept;
+    const auto isCloser = [](const Foot& a, const Foot& b) {
+        return std::tie(a.squaredDistance_m2, a.component) <
+               std::tie(b.squaredDistance_m2, b.component);
+    };
+    float bound = maxSquaredDistance_m2;
+    const auto prune = [&](const Node&, float squaredDistance_m2) {
+        return !(squaredDistance_m2 <= bound);
+    };
+    visitNear(point, prune, [&](const Surface& surface) {
+        const Foot foot = footOf(surface, alongAxes(surface, point));
+        if (!(foot.squaredDistance_m2 <= bound)) return;
+        if (kept.size() == count) {
+            if (!isCloser(foot, kept.front())) return;
+            std::pop_heap(kept.begin(), kept.end(), isCloser);
+            kept.pop_back();
+        }
+        kept.push_back(foot);
+        std::push_heap(kept.begin(), kept.end(), isCloser);
+        if (kept.size() == count) bound = kept.front().squaredDistance_m2;
+    });
+    std::sort_heap(kept.begin(), kept.end(), isCloser);
+    return kept;
+}
+
+template <int D>
+auto SurfaceProjection<D>::bounds() const -> std::optional<std::pair<Point, Point>> {
+    if (surfaces_.empty()) return {};
+    std::pair<Point, Point> corners{surfaces_[0].mean, surfaces_[0].mean};
+    for (const Surface& surface : surfaces_)
+        for (int d = 0; d < D; ++d) {
+            float half = 0;
+            for (int a = 0; a < D; ++a)
+                half += kExtentSigmas * std::sqrt(surface.variance[a]) *
+                        std::abs(surface.axes[a][d]);
+            corners.first[d] = std::min(corners.first[d], surface.mean[d] - half);
+            corners.second[d] = std::max(corners.second[d], surface.mean[d] + half);
+        }
+    return corners;
+}
+
+template <int D>
 std::size_t SurfaceProjection<D>::liveBytes() const {
     return surfaces_.capacity() * sizeof(Surface) + nodes_.capacity() * sizeof(Node);
 }

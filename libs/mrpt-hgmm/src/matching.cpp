@@ -79,6 +79,11 @@ SurfaceMatching::SharedSurfaces<D> SurfaceMatching::surfacesOf(const Map& map) c
     return kept;
 }
 
+template SurfaceMatching::SharedSurfaces<2> SurfaceMatching::surfacesOf<2>(
+    const Map&) const;
+template SurfaceMatching::SharedSurfaces<3> SurfaceMatching::surfacesOf<3>(
+    const Map&) const;
+
 template <int D>
 void SurfaceMatching::match(const Map& map, const PointsView& other,
                             const mrpt::poses::CPose3D& T_map_other,

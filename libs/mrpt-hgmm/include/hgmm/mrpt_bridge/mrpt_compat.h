@@ -13,15 +13,30 @@
 /// pointers, and a configuration with a map of an unknown type is refused.
 #define HGMM_MRPT_HAS_NEAREST_NEIGHBOURS HGMM_MRPT_AT_LEAST(2, 11, 3)
 
+#if HGMM_MRPT_HAS_NEAREST_NEIGHBOURS
+#include <mrpt/maps/NearestNeighborsCapable.h>
+/// `override` where MRPT declares the function.
+#define HGMM_OVERRIDE_SINCE_2_11_3 override
+#else
+/// `override` where MRPT declares the function. MRPT 2.5 does not: it is one of our own.
+#define HGMM_OVERRIDE_SINCE_2_11_3
+#endif
+
 /// What differs between MRPT 2.5 (Debian 12) and 2.14 (Debian 13).
 namespace hgmm::mrpt_bridge {
 
 #if HGMM_MRPT_HAS_NEAREST_NEIGHBOURS
 /// How map factories hand over a new map.
 using NewMap = mrpt::maps::CMetricMap::Ptr;
+using NearestNeighboursInterface = mrpt::maps::NearestNeighborsCapable;
 #else
 /// How map factories hand over a new map: the caller owns it.
 using NewMap = mrpt::maps::CMetricMap*;
+/// Stands for MRPT's interface, which MRPT 2.5 lacks.
+class NearestNeighboursInterface {
+ public:
+    virtual ~NearestNeighboursInterface() = default;
+};
 #endif
 
 namespace compat {
