@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "hgmm/registration.h"
+#include "saved_bytes.h"
 
 namespace equality {
 namespace {
@@ -163,10 +164,10 @@ void addSaved(Dump& dump, const hgmm::Map& map, const Questions& questions) {
         const std::string encoding = exact ? "saved exact" : "saved compact";
         const std::vector<std::uint8_t> bytes =
             map.save(exact ? hgmm::Encoding::exact : hgmm::Encoding::compact);
-        dump.add(encoding, Kind::saved, "byte", {"value"}, bytes);
+        dump.add(encoding, Kind::saved, "byte", {"value"}, withoutOptions(bytes));
         const hgmm::Map loaded = hgmm::Map::load(bytes.data(), bytes.size());
         dump.add(encoding + ", loaded and saved", Kind::saved, "byte", {"value"},
-                 loaded.save(hgmm::Encoding::exact));
+                 withoutOptions(loaded.save(hgmm::Encoding::exact)));
         addAnswers(dump, encoding + " and loaded: ", loaded, some);
     }
 }
@@ -186,7 +187,7 @@ void addPairs(Dump& dump, const hgmm::Map& map, const std::vector<hgmm::Map>& ot
     }
     dump.add("registrations", Kind::answers, "scan", registrationColumns(), found);
     dump.add("merged with scans' maps", Kind::saved, "byte", {"value"},
-             merged.save(hgmm::Encoding::exact));
+             withoutOptions(merged.save(hgmm::Encoding::exact)));
 }
 
 void addInsertions(Dump& dump, const hgmm::MapParams& params,
@@ -206,7 +207,7 @@ void addInsertions(Dump& dump, const hgmm::MapParams& params,
               "seen through", "outgrown", "removed"},
              values);
     dump.add("map of inserted scans", Kind::saved, "byte", {"value"},
-             map.save(hgmm::Encoding::exact));
+             withoutOptions(map.save(hgmm::Encoding::exact)));
 }
 
 }  // namespace equality

@@ -8,6 +8,8 @@
 
 #include <stdexcept>
 
+#include "saved_bytes.h"
+
 namespace equality {
 namespace {
 
@@ -116,7 +118,7 @@ void addPluginAnswers(Dump& dump, const CHGMMOccupancyMap& map,
     archive << map;
     const auto* bytes = static_cast<const std::uint8_t*>(memory.getRawBufferData());
     dump.add("MRPT object", Kind::saved, "byte", {"value"},
-             std::vector<std::uint8_t>(bytes, bytes + memory.getTotalBytesCount()));
+             withoutOptionsOfObject({bytes, bytes + memory.getTotalBytesCount()}));
     memory.Seek(0);
     const auto copy = archive.ReadObject<CHGMMOccupancyMap>();
     addLikelihoods(dump, "MRPT object read back: likelihoods", *copy, scans);
