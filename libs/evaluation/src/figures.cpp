@@ -47,8 +47,8 @@ MapFigures evaluateMap(const Map& built, const TestPoints& testPoints, std::uint
     const Map map = Map::load(saved.data(), saved.size());
     MapFigures figures;
     figures.source = "this project; docs/method.md";
-    forEachField(map.params(), [&](const char* name, auto value) {
-        figures.options.emplace_back(name, static_cast<double>(value));
+    forEachNumber(map.params(), [&](const OptionRow& row, auto value) {
+        figures.options.emplace_back(row.name, static_cast<double>(value));
     });
     figures.levels = levelFigures(map, testPoints);
     figures.memory = memoryOf(built);

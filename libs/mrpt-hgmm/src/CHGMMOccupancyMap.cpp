@@ -9,7 +9,7 @@
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
 #include "hgmm/mrpt_bridge/octomap_voxels.h"
 #include "map_archive.h"
-#include "option_fields.h"
+#include "modality_warnings.h"
 #include "shared_samples.h"
 
 namespace bridge = ::hgmm::mrpt_bridge;
@@ -33,12 +33,13 @@ namespace {
 
 void CHGMMOccupancyMap::applyInsertionOptions() {
     // setParams drops derived data, so it is for parameters that did change.
-    if (!bridge::sameParams(model_.params(), insertionOptions.params))
+    if (model_.params() != insertionOptions.params)
         model_.setParams(insertionOptions.params);
 }
 
 ::hgmm::InsertReport CHGMMOccupancyMap::insertScan(const ::hgmm::Scan& scan) {
     applyInsertionOptions();
+    bridge::warnOfAbsentModalities(model_, scan);
     return model().insert(scan);
 }
 

@@ -113,11 +113,11 @@ void ObservationLikelihood::forgetObservations() {
 std::shared_ptr<const ObservationLikelihood::Surfaces> ObservationLikelihood::surfacesOf(
     const Map& map, const LikelihoodParams& params) const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!surfaces_ || surfaces_->softening_m != params.softening_m ||
+    if (!surfaces_ || surfaces_->kernelWidth_m != params.kernelWidth_m ||
         surfaces_->outlierRatio != params.outlierRatio) {
         surfaces_ = std::make_shared<Surfaces>(Surfaces{
-            SurfaceLikelihood(map.mixture(), params.softening_m, params.outlierRatio),
-            params.softening_m, params.outlierRatio});
+            SurfaceLikelihood(map.mixture(), params.kernelWidth_m, params.outlierRatio),
+            params.kernelWidth_m, params.outlierRatio});
     } else if (stale_) {
         if (surfaces_.use_count() > 1) surfaces_ = std::make_shared<Surfaces>(*surfaces_);
         surfaces_->likelihood.update(map.mixture());

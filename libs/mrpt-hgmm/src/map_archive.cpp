@@ -68,7 +68,7 @@ void writeOptions(CArchive& out, Options options) {
         out << static_cast<std::uint8_t>(text ? texts : fields.size() - texts);
         for (const OptionField& field : fields) {
             if (field.isText() != text) continue;
-            writeText<std::uint8_t>(out, field.name);
+            writeText<std::uint8_t>(out, field.row->name);
             if (text)
                 writeText<std::uint16_t>(out, textOf(field));
             else
@@ -77,18 +77,21 @@ void writeOptions(CArchive& out, Options options) {
     }
 }
 
-/// Options of version 0 that have no counterpart now: how a stored model was built, which
-/// nothing depends on.
-bool isRetired(const std::string& name) {
-    return name == "leafPerRange" || name == "cellPerRange";
+/// Whether an option has no counterpart now and nothing depends on it: how the stored model
+/// was built. The buffer of the model has a word on what it was built with, too.
+bool isRetired(const std::string& name, std::uint8_t version) {
+    if (version == 0 && (name == "leafPerRange" || name == "cellPerRange")) return true;
+    const auto& retired = retiredOptions();
+    return std::any_of(retired.begin(), retired.end(),
+                       [&](const RetiredOption& option) { return option.name == name; });
 }
 
 /// The field of a name and kind; nothing for one that does not matter any more.
 const OptionField* findStored(const OptionFields& fields, const std::string& name,
                               bool isText, std::uint8_t version) {
     for (const OptionField& field : fields)
-        if (field.isText() == isText && field.isStoredAs(name)) return &field;
-    if (version == 0 && isRetired(name)) return nullptr;
+        if (field.isText() == isText && field.row->isNamed(name)) return &field;
+    if (!isText && isRetired(name, version)) return nullptr;
     fail("it holds an option '" + name + "' that this version does not know");
 }
 
@@ -116,7 +119,7 @@ Options readOptions(CArchive& in, std::uint8_t version) {
     for (unsigned left = in.ReadAs<std::uint8_t>(); left > 0; --left) {
         const auto name = readText<std::uint8_t>(in);
         const auto text = readText<std::uint16_t>(in);
-        setText(*findStored(fields, name, true, version), text);
+        setText(*findStored(fields, name, true, version), text, name);
     }
     return options;
 }

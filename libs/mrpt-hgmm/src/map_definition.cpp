@@ -4,7 +4,10 @@
 #include <filesystem>
 #include <ostream>
 
+#include "modality_warnings.h"
 #include "option_fields.h"
+#include "read_options.h"
+#include "section_names.h"
 
 namespace fs = std::filesystem;
 namespace bridge = ::hgmm::mrpt_bridge;
@@ -15,20 +18,6 @@ MAP_DEFINITION_REGISTER("mrpt::maps::CHGMMOccupancyMap,hgmmMap",
                         mrpt::maps::CHGMMOccupancyMap)
 
 namespace {
-
-constexpr const char* kSuffixes[] = {"_creationOpts", "_insertOpts", "_likelihoodOpts",
-                                     "_renderOpts"};
-
-/// Sections that start like ours and end in a way that nobody reads.
-void warnOfUnknownSections(const mrpt::config::CConfigFileBase& source,
-                           const std::string& prefix) {
-    std::vector<std::string> all, ours, known;
-    source.getAllSections(all);
-    for (const std::string& section : all)
-        if (section.rfind(prefix + "_", 0) == 0) ours.push_back(section);
-    for (const char* suffix : kSuffixes) known.push_back(prefix + suffix);
-    bridge::warnOfUnknown(ours, known, "section", "the configuration");
-}
 
 std::string resolved(const std::string& fileName,
                      const mrpt::config::CConfigFileBase& source) {
@@ -47,18 +36,16 @@ CHGMMOccupancyMap::TMapDefinition::TMapDefinition() = default;
 void CHGMMOccupancyMap::TMapDefinition::loadFromConfigFile_map_specific(
     const mrpt::config::CConfigFileBase& source, const std::string& prefix) {
     const std::string creation = prefix + "_creationOpts";
-    std::vector<std::string> keys;
-    source.getAllKeys(creation, keys);
-    bridge::warnOfUnknown(keys,
-                          {"load_file", "enableSaveAs3DObject",
-                           "enableObservationLikelihood", "enableObservationInsertion"},
-                          "key", "section [" + creation + "]");
-    warnOfUnknownSections(source, prefix);
+    bridge::CreationOptions known;
+    bridge::warnOfUnknownKeys(bridge::fieldsOf(known), source, creation);
+    bridge::warnOfUnreadSections(source, prefix);
 
     load_file = resolved(source.read_string(creation, "load_file", load_file), source);
     insertionOpts.loadFromConfigFile(source, prefix + "_insertOpts");
     likelihoodOpts.loadFromConfigFile(source, prefix + "_likelihoodOpts");
     renderOpts.loadFromConfigFile(source, prefix + "_renderOpts");
+    bridge::warnOfForeignModalities(insertionOpts.params.modalities,
+                                    prefix + "_insertOpts");
 }
 
 void CHGMMOccupancyMap::TMapDefinition::dumpToTextStream_map_specific(

@@ -1,20 +1,14 @@
 #include "shared_samples.h"
 
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
-#include "option_fields.h"
 #include "recent_observations.h"
 
 namespace hgmm::mrpt_bridge {
 
 namespace {
 
-struct ComparedParams {
-    MapParams params;
-    bool operator==(const ComparedParams& o) const { return sameParams(params, o.params); }
-};
-
 auto& recentSamples() {
-    static RecentObservations<ComparedParams, ScanSamples> recent(Digested::whole);
+    static RecentObservations<MapParams, ScanSamples> recent(Digested::whole);
     return recent;
 }
 
@@ -23,7 +17,7 @@ auto& recentSamples() {
 std::shared_ptr<const ScanSamples> sharedSamplesOf(
     const mrpt::obs::CObservation& observation, const MapParams& params) {
     return recentSamples().get(
-        observation, {params}, [&]() -> std::shared_ptr<const ScanSamples> {
+        observation, params, [&]() -> std::shared_ptr<const ScanSamples> {
             const auto scan = observationToScan(observation, std::nullopt, Channels::none);
             if (!scan) return nullptr;
             return std::make_shared<const ScanSamples>(samplesOf(*scan, params));

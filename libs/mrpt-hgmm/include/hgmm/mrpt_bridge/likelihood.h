@@ -17,7 +17,7 @@ constexpr int kMaxPoints = 1000000;
 
 /// Which points of a scan are compared with the map, and how.
 struct LikelihoodParams {
-    double softening_m = 0.02;  ///< standard deviation added to all surfaces [m], 0 to 10
+    double kernelWidth_m = 0.02;  ///< standard deviation added to all surfaces [m], 0 to 10
     double outlierRatio =
         0.05;  ///< share of points that the map need not explain, in (0, 1)
     /// Points compared, spread over the scan [count], 1 to kMaxPoints.
@@ -27,10 +27,11 @@ struct LikelihoodParams {
     /// it.
     int independentPoints = 100;
     double minRange_m = 0.1;   ///< nearer points are left out [m], >= 0
-    double maxRange_m = 80.0;  ///< farther points are left out [m], > minRange_m
+    double maxRange_m = 80.0;  ///< farther points are left out [m], >= minRange_m
 
     /// Throws std::invalid_argument naming the field.
     void validate() const;
+    static const OptionTable<LikelihoodParams>& options();
     bool operator==(const LikelihoodParams& o) const;
 };
 
@@ -62,7 +63,7 @@ class ObservationLikelihood {
  private:
     struct Surfaces {
         SurfaceLikelihood likelihood;
-        double softening_m, outlierRatio;
+        double kernelWidth_m, outlierRatio;
     };
     std::shared_ptr<const Surfaces> surfacesOf(const Map& map,
                                                const LikelihoodParams& params) const;
