@@ -5,11 +5,12 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "hgmm/mrpt_bridge/ellipsoids.h"
+#include "ellipsoids.h"
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
-#include "hgmm/mrpt_bridge/octomap_voxels.h"
 #include "map_archive.h"
 #include "modality_warnings.h"
+#include "observation_likelihood.h"
+#include "octomap_voxels.h"
 #include "shared_samples.h"
 
 namespace bridge = ::hgmm::mrpt_bridge;
@@ -26,8 +27,7 @@ namespace {
 }  // namespace
 
 ::hgmm::Map& CHGMMOccupancyMap::model() {
-    likelihood_.invalidate();
-    matching_.invalidate();
+    caches_.invalidate();
     return model_;
 }
 
@@ -126,7 +126,7 @@ bool CHGMMOccupancyMap::internal_insertObservation(
 double CHGMMOccupancyMap::internal_computeObservationLikelihood(
     const mrpt::obs::CObservation& observation,
     const mrpt::poses::CPose3D& takenFrom) const {
-    return likelihood_(model_, likelihoodOptions, observation, takenFrom);
+    return caches_.likelihood()(model_, likelihoodOptions, observation, takenFrom);
 }
 
 bool CHGMMOccupancyMap::internal_canComputeObservationLikelihood(
@@ -135,8 +135,7 @@ bool CHGMMOccupancyMap::internal_canComputeObservationLikelihood(
 }
 
 void CHGMMOccupancyMap::OnPostSuccesfulInsertObs(const mrpt::obs::CObservation&) {
-    likelihood_.invalidate();
-    matching_.invalidate();
+    caches_.invalidate();
 }
 
 }  // namespace mrpt::maps

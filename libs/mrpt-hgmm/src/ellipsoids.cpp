@@ -1,4 +1,4 @@
-#include "hgmm/mrpt_bridge/ellipsoids.h"
+#include "ellipsoids.h"
 
 #include <mrpt/opengl/CEllipsoid3D.h>
 

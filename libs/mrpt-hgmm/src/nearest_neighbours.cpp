@@ -1,5 +1,7 @@
 #include "hgmm/mrpt_bridge/nearest_neighbours.h"
 
+#include "surface_matching.h"
+
 #include <mrpt/maps/CHGMMOccupancyMap.h>
 
 #include <array>
@@ -125,7 +127,7 @@ void NearestNeighbours::nn_radius_search(const Point2& query, const float search
 
 auto mrpt::maps::CHGMMOccupancyMap::boundingBox() const -> mrpt::math::TBoundingBoxf {
     using hgmm::mrpt_bridge::toMap;
-    const auto corners = matching_.surfacesOf<3>(model_)->bounds();
+    const auto corners = caches_.matching().surfacesOf<3>(model_)->bounds();
     if (!corners) return {};
     return {toMap<mrpt::math::TPoint3Df>(corners->first, model_.origin()),
             toMap<mrpt::math::TPoint3Df>(corners->second, model_.origin())};

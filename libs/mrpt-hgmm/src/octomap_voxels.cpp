@@ -1,4 +1,4 @@
-#include "hgmm/mrpt_bridge/octomap_voxels.h"
+#include "octomap_voxels.h"
 
 #include <algorithm>
 #include <limits>

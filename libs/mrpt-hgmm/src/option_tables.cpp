@@ -1,6 +1,6 @@
 #include "option_tables.h"
 
-#include "hgmm/mrpt_bridge/likelihood.h"
+#include "hgmm/mrpt_bridge/likelihood_params.h"
 #include "hgmm/mrpt_bridge/render_params.h"
 #include "hgmm/params.h"
 

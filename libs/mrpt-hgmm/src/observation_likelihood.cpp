@@ -1,4 +1,4 @@
-#include "hgmm/mrpt_bridge/likelihood.h"
+#include "observation_likelihood.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,6 +78,7 @@ ObservationLikelihood& ObservationLikelihood::operator=(const ObservationLikelih
     const std::scoped_lock lock(mutex_, o.mutex_);
     surfaces_ = o.surfaces_;
     stale_ = o.stale_;
+    isOwner_ = o.isOwner_ = false;
     return *this;
 }
 
@@ -118,8 +119,10 @@ std::shared_ptr<const ObservationLikelihood::Surfaces> ObservationLikelihood::su
         surfaces_ = std::make_shared<Surfaces>(Surfaces{
             SurfaceLikelihood(map.mixture(), params.kernelWidth_m, params.outlierRatio),
             params.kernelWidth_m, params.outlierRatio});
+        isOwner_ = true;
     } else if (stale_) {
-        if (surfaces_.use_count() > 1) surfaces_ = std::make_shared<Surfaces>(*surfaces_);
+        if (!isOwner_) surfaces_ = std::make_shared<Surfaces>(*surfaces_);
+        isOwner_ = true;
         surfaces_->likelihood.update(map.mixture());
     }
     stale_ = false;
