@@ -45,12 +45,10 @@ const std::vector<PosedScan>& laserScans() {
         if (!map.loadFromFile("/usr/share/mrpt/datasets/localization_demo.simplemap.gz"))
             throw std::runtime_error("localization_demo.simplemap.gz: see mrpt-common");
         std::vector<PosedScan> all;
-        for (std::size_t i = 0; i < map.size(); ++i) {
-            const auto& [pose, frame] = map.get(i);
-            for (const auto& o : *frame)
+        for (const auto& keyframe : map)
+            for (const auto& o : *keyframe.sf)
                 if (const auto scan = hgmm::mrpt_bridge::observationToScan(*o))
-                    all.push_back({o, pose->getMeanVal(), scan->size()});
-        }
+                    all.push_back({o, keyframe.pose->getMeanVal(), scan->size()});
         return all;
     }();
     return scans;

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # Shows that maps of this tree are those of another commit, bit for bit: builds both, puts the same
-# recordings into the maps of either, and compares all components, saved bytes but those of options,
-# and answers.
+# recordings into the maps of either, and compares all components and answers.
 #   scripts/equality.sh [BASE_COMMIT]   default: d48da0d; exits with 1 on any difference
 #   scripts/equality.sh --self-test     plants one changed ulp, and fails unless it is found by name
 # HGMM_DATA_DIR names the recordings, ../shared/data if unset. HGMM_BASE_TREE names a clone at

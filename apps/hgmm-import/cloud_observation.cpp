@@ -47,9 +47,9 @@ CloudObservation makeCloudObservation(const PcdCloud& cloud_frame,
     else if (cloud_frame.hasIntensity)
         fillInto(mrpt::maps::CPointsMapXYZI::Create(), [](auto& map, const Vector3f& p,
                                                           const PcdPoint& point) {
-            map.insertPointFast(p.x(), p.y(), p.z());
-            map.setPointIntensity(map.size() - 1,
-                                  std::isfinite(point.intensity) ? point.intensity : 0);
+            // An XYZI cloud takes the intensity for red, and has no other colour.
+            map.insertPointRGB(p.x(), p.y(), p.z(),
+                               std::isfinite(point.intensity) ? point.intensity : 0, 0, 0);
         });
     else
         fillInto(mrpt::maps::CSimplePointsMap::Create(),

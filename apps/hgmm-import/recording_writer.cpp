@@ -43,11 +43,10 @@ mrpt::maps::CSimpleMap ofOneCloud(const mrpt::maps::CSimplePointsMap::Ptr& cloud
     cloud->mark_as_modified();
     auto observation = mrpt::obs::CObservationPointCloud::Create();
     observation->pointcloud = cloud;
-    mrpt::obs::CSensoryFrame frame;
-    frame.insert(observation);
+    auto frame = mrpt::obs::CSensoryFrame::Create();
+    frame->insert(observation);
     mrpt::maps::CSimpleMap map;
-    mrpt::poses::CPose3DPDFGaussian origin;
-    map.insert(origin, frame);
+    map.insert(mrpt::poses::CPose3DPDFGaussian::Create(), frame);
     return map;
 }
 
@@ -80,8 +79,8 @@ void RecordingWriter::add(const ImportedScan& scan) {
     trajectory_.push_back({stamp, scan.T_world_robot});
     if (!outputs_.cloud.empty()) addToCloud(scan);
     if (outputs_.simplemap.empty()) return;
-    mrpt::poses::CPose3DPDFGaussian pose(toMrpt(scan.T_world_robot));
-    simplemap_.insert(pose, *frame);
+    simplemap_.insert(mrpt::poses::CPose3DPDFGaussian::Create(toMrpt(scan.T_world_robot)),
+                      frame);
 }
 
 void RecordingWriter::addToCloud(const ImportedScan& scan) {

@@ -10,7 +10,7 @@ namespace replay {
 
 using mrpt::maps::CHGMMOccupancyMap;
 
-std::unique_ptr<CHGMMOccupancyMap> makeMap(const std::optional<std::string>& config) {
+CHGMMOccupancyMap::Ptr makeMap(const std::optional<std::string>& config) {
     CHGMMOccupancyMap::TMapDefinition definition;
     if (config) {
         if (!std::filesystem::is_regular_file(*config))
@@ -30,8 +30,7 @@ std::unique_ptr<CHGMMOccupancyMap> makeMap(const std::optional<std::string>& con
                                      " hgmm maps; one section must have hgmmMap_count = 1");
         definition.loadFromConfigFile(ini, prefix);
     }
-    return std::unique_ptr<CHGMMOccupancyMap>(
-        CHGMMOccupancyMap::CreateFromMapDefinition(definition));
+    return CHGMMOccupancyMap::Ptr(CHGMMOccupancyMap::CreateFromMapDefinition(definition));
 }
 
 }  // namespace replay

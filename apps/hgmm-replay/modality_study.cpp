@@ -174,7 +174,7 @@ class ModalityTrial {
     const Options& options_;
     std::size_t scansInAll_;
     std::size_t points_ = 0;
-    std::unique_ptr<mrpt::maps::CHGMMOccupancyMap> coloured_, plain_;
+    mrpt::maps::CHGMMOccupancyMap::Ptr coloured_, plain_;
     ModalityPoints test_;
     ModalityEstimates estimates_;  // at test_, by the map of all scans
     hgmm::Scan middle_;

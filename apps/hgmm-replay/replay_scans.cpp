@@ -55,9 +55,8 @@ std::vector<ReplayedBaseline> makeBaselines(const Options& options, SensorKind s
 }
 
 /// Empty maps, and how they are to be tested.
-Replayed prepare(const Recording& recording,
-                 std::unique_ptr<mrpt::maps::CHGMMOccupancyMap> map, const Options& options,
-                 std::vector<ReplayedBaseline> others) {
+Replayed prepare(const Recording& recording, mrpt::maps::CHGMMOccupancyMap::Ptr map,
+                 const Options& options, std::vector<ReplayedBaseline> others) {
     const NearBand near = options.near.value_or(nearBandOf(recording.sensor()));
     Replayed replayed{
         std::move(map),
@@ -127,8 +126,7 @@ void useScan(hgmm::Scan scan, std::size_t index, const Sampling& sampling,
 
 }  // namespace
 
-Replayed replayScans(Recording& recording,
-                     std::unique_ptr<mrpt::maps::CHGMMOccupancyMap> map,
+Replayed replayScans(Recording& recording, mrpt::maps::CHGMMOccupancyMap::Ptr map,
                      const Options& options, std::vector<ReplayedBaseline> others) {
     Replayed replayed = prepare(recording, std::move(map), options, std::move(others));
     Run& run = replayed.run;

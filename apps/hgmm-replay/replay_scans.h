@@ -29,7 +29,7 @@ struct ReplayedBaseline {
 
 /// A recording, replayed.
 struct Replayed {
-    std::unique_ptr<mrpt::maps::CHGMMOccupancyMap> map;
+    mrpt::maps::CHGMMOccupancyMap::Ptr map;
     std::vector<ReplayedBaseline> baselines;
     hgmm::evaluation::Run run;
     hgmm::evaluation::TestPoints testPoints;
@@ -42,7 +42,7 @@ struct Replayed {
 /// Inserts the mapping scans, in the map, in `others` and in the baselines of `options`,
 /// and collects the test points, until the end or Ctrl-C.
 Replayed replayScans(hgmm::evaluation::Recording& recording,
-                     std::unique_ptr<mrpt::maps::CHGMMOccupancyMap> map,
-                     const Options& options, std::vector<ReplayedBaseline> others = {});
+                     mrpt::maps::CHGMMOccupancyMap::Ptr map, const Options& options,
+                     std::vector<ReplayedBaseline> others = {});
 
 }  // namespace replay

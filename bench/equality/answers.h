@@ -14,7 +14,7 @@ namespace equality {
 void addAnswers(Dump& dump, const std::string& of, const hgmm::Map& map,
                 const Questions& questions);
 
-/// Adds the bytes of a map saved in either encoding, and what the maps loaded from them
+/// Adds the components of maps loaded from either encoding, and what they
 /// say of a quarter of the questions.
 void addSaved(Dump& dump, const hgmm::Map& map, const Questions& questions);
 

@@ -88,9 +88,8 @@ std::vector<std::string> differences(const Dump& base, const Dump& present) {
 
 /// Says how much a dump holds.
 std::string extent(const Dump& dump) {
-    std::size_t components = 0, arrays = 0, savedBytes = 0, answers = 0, numbers = 0;
+    std::size_t components = 0, arrays = 0, answers = 0, numbers = 0;
     for (const Section& section : dump.sections()) {
-        if (section.kind == Kind::saved) savedBytes += section.bytes.size();
         if (section.kind == Kind::answers) answers += section.rows();
         if (section.kind == Kind::answers) numbers += section.numbers();
         if (section.kind != Kind::components) continue;
@@ -100,8 +99,7 @@ std::string extent(const Dump& dump) {
     const Section* scans = dump.find("scans");
     return (scans ? textAt(*scans, 1) + " of " + textAt(*scans, 0) + " scans, " : "") +
            std::to_string(components) + " components of all levels in " +
-           std::to_string(arrays) + " arrays, " + std::to_string(savedBytes) +
-           " saved bytes, " + std::to_string(answers) + " answers of " +
+           std::to_string(arrays) + " arrays, " + std::to_string(answers) + " answers of " +
            std::to_string(numbers) + " numbers";
 }
 

@@ -52,18 +52,18 @@ void addViewDirections(Dump& dump, const std::string& name, const hgmm::Map& map
 
 }  // namespace
 
-void addComponents(Dump& dump, const hgmm::Map& map) {
+void addComponents(Dump& dump, const std::string& of, const hgmm::Map& map) {
     const Eigen::Vector3d& origin = map.origin();
-    dump.add("origin", Kind::components, "map", {"x", "y", "z"},
+    dump.add(of + "origin", Kind::components, "map", {"x", "y", "z"},
              std::vector<double>{origin.x(), origin.y(), origin.z()});
     for (std::size_t level = 0; level < map.levelCount(); ++level) {
         const std::string at = ", level " + std::to_string(level);
-        addMixture(dump, "surfaces" + at, map.mixture(level));
-        addViewDirections(dump, "view directions" + at, map, level);
-        addMixture(dump, "free space" + at, map.freeMixture(level));
+        addMixture(dump, of + "surfaces" + at, map.mixture(level));
+        addViewDirections(dump, of + "view directions" + at, map, level);
+        addMixture(dump, of + "free space" + at, map.freeMixture(level));
         for (const std::string& name : map.modalities())
             if (const auto* model = map.modality(name))
-                addMixture(dump, "modality " + name + at, model->mixture(level));
+                addMixture(dump, of + "modality " + name + at, model->mixture(level));
     }
 }
 

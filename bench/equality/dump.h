@@ -8,7 +8,7 @@
 namespace equality {
 
 /// What a section holds.
-enum class Kind : std::uint8_t { components, saved, answers };
+enum class Kind : std::uint8_t { components, answers };
 
 /// Type of a section's numbers.
 enum class Number : std::uint8_t { byte, count, single, real };

@@ -89,7 +89,7 @@ int dumpAnswers(const Arguments& a) {
     Dump dump;
     dump.add("scans", Kind::answers, "recording", {"read", "inserted"},
              std::vector<std::uint64_t>{recording.size(), insertion.inserted});
-    addComponents(dump, map.model());
+    addComponents(dump, "", map.model());
     addAnswers(dump, "", map.model(), questions);
     addPluginAnswers(dump, map, insertion.kept, questions);
     addSaved(dump, map.model(), questions);

@@ -1,5 +1,7 @@
 #include "plugin_answers.h"
 
+#include "components.h"
+
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
@@ -7,8 +9,6 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <stdexcept>
-
-#include "saved_bytes.h"
 
 namespace equality {
 namespace {
@@ -116,11 +116,9 @@ void addPluginAnswers(Dump& dump, const CHGMMOccupancyMap& map,
     mrpt::io::CMemoryStream memory;
     auto archive = mrpt::serialization::archiveFrom(memory);
     archive << map;
-    const auto* bytes = static_cast<const std::uint8_t*>(memory.getRawBufferData());
-    dump.add("MRPT object", Kind::saved, "byte", {"value"},
-             withoutOptionsOfObject({bytes, bytes + memory.getTotalBytesCount()}));
     memory.Seek(0);
     const auto copy = archive.ReadObject<CHGMMOccupancyMap>();
+    addComponents(dump, "MRPT object read back: ", copy->model());
     addLikelihoods(dump, "MRPT object read back: likelihoods", *copy, scans);
 }
 

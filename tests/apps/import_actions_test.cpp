@@ -102,12 +102,12 @@ TEST_F(ImportActions, SimpleMapHoldsPosesAndScans) {
     mrpt::maps::CSimpleMap map;
     ASSERT_TRUE(map.loadFromFile(path("out.simplemap").string()));
     ASSERT_EQ(map.size(), 5U);
-    for (std::size_t i = 0; i < map.size(); ++i) {
-        const auto& [pose, frame] = map.get(i);
-        EXPECT_LT(import_test::poseDistance(import_test::toPose(pose->getMeanVal()),
-                                            poseAt(int(50 * i))),
-                  1e-9);
-        const auto o = frame->getObservationByClass<mrpt::obs::CObservationPointCloud>();
+    int number = 0;
+    for (const auto& keyframe : map) {
+        const auto mean = import_test::toPose(keyframe.pose->getMeanVal());
+        EXPECT_LT(import_test::poseDistance(mean, poseAt(50 * number++)), 1e-9);
+        const auto o =
+            keyframe.sf->getObservationByClass<mrpt::obs::CObservationPointCloud>();
         ASSERT_TRUE(o);
         EXPECT_EQ(o->pointcloud->size(), 1U);
     }

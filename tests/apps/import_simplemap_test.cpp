@@ -28,11 +28,10 @@ class ImportSimpleMap : public ImportTest {
             scan->sensorPose = CPose3D(0.1, 0, 0.2, 0, 0, 0);
             scan->aperture = 1.F;
             scan->resizeScanAndAssign(11, 2.F + float(i), true);
-            mrpt::obs::CSensoryFrame frame;
-            frame.insert(mrpt::obs::CObservationOdometry::Create());
-            frame.insert(scan);
-            mrpt::poses::CPose3DPDFGaussian pose(frameAt(i));
-            map.insert(pose, frame);
+            auto frame = mrpt::obs::CSensoryFrame::Create();
+            frame->insert(mrpt::obs::CObservationOdometry::Create());
+            frame->insert(scan);
+            map.insert(mrpt::poses::CPose3DPDFGaussian::Create(frameAt(i)), frame);
         }
         ASSERT_TRUE(map.saveToFile(path("in.simplemap").string()));
     }
@@ -82,10 +81,10 @@ TEST_F(ImportSimpleMap, CloudHoldsAllPointsInTheWorldFrame) {
     mrpt::maps::CSimpleMap map;
     ASSERT_TRUE(map.loadFromFile(path("cloud.simplemap").string()));
     ASSERT_EQ(map.size(), 1U);
-    const auto& [pose, frame] = map.get(0);
-    EXPECT_EQ(pose->getMeanVal(), CPose3D());
+    const auto& keyframe = *map.begin();
+    EXPECT_EQ(keyframe.pose->getMeanVal(), CPose3D());
     const auto observation =
-        frame->getObservationByClass<mrpt::obs::CObservationPointCloud>();
+        keyframe.sf->getObservationByClass<mrpt::obs::CObservationPointCloud>();
     ASSERT_TRUE(observation);
     ASSERT_EQ(observation->pointcloud->size(), 22U);
     // The middle ray of each scan looks ahead from its sensor.

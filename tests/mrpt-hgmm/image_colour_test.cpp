@@ -18,10 +18,10 @@ using mrpt::math::TPoint3D;
 
 constexpr int kCols = 120, kRows = 90;
 
-const std::vector<float>& channelOf(const hgmm::Scan& scan, const std::string& name) {
+const std::vector<float>& channelOf(const hgmm::Scan& scan, const char* name) {
     for (const auto& c : scan.channels)
         if (c.name == name) return c.values;
-    throw std::runtime_error("no channel " + name);
+    throw std::runtime_error(std::string("no channel ") + name);
 }
 
 mrpt::img::CImage numberedImage() {

@@ -168,14 +168,14 @@ TEST(ModalityEllipsoids, AreThoseOfTheModalityInItsColours) {
         const auto shape = std::dynamic_pointer_cast<mrpt::opengl::CEllipsoid3D>(object);
         ASSERT_TRUE(shape);
         const auto colour = shape->getColor();
-        EXPECT_NEAR(shape->getPoseX(), 103, 0.05);
-        if (std::abs(shape->getPoseY()) < 0.1) continue;
+        EXPECT_NEAR(shape->getPose().x, 103, 0.05);
+        if (std::abs(shape->getPose().y) < 0.1) continue;
         const Eigen::Vector3d truth =
-            coloured_wall::colourAt(shape->getPoseY(), shape->getPoseZ() - 1);
+            coloured_wall::colourAt(shape->getPose().y, shape->getPose().z - 1);
         EXPECT_NEAR(colour.R, truth[0], 0.05);
         EXPECT_NEAR(colour.G, truth[1], 0.05);
         EXPECT_NEAR(colour.B, truth[2], 0.05);
-        (shape->getPoseY() > 0 ? left : right) += 1;
+        (shape->getPose().y > 0 ? left : right) += 1;
     }
     EXPECT_GT(left, 0);
     EXPECT_GT(right, 0);

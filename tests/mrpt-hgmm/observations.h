@@ -76,12 +76,20 @@ inline mrpt::obs::CObservationVelodyneScan::Ptr velodyne() {
         log.getAsObservation(0));
 }
 
+/// A revolution of a VLP-16. MRPT 2.14 does not read rotating scans that earlier releases
+/// wrote, those of its own datasets included; it converts the packets that they came from.
 inline mrpt::obs::CObservationRotatingScan::Ptr recordedRotating() {
+#if HGMM_MRPT_HAS_NEAREST_NEIGHBOURS
+    auto converted = mrpt::obs::CObservationRotatingScan::Create();
+    converted->fromVelodyne(*velodyne());
+    return converted;
+#else
     mrpt::obs::CRawlog log;
     if (!log.loadFromRawLogFile(std::string(datasets()) + "rot_scan_velodyne.rawlog"))
         return {};
     return std::dynamic_pointer_cast<mrpt::obs::CObservationRotatingScan>(
         log.getAsObservation(0));
+#endif
 }
 
 /// As the class is documented: columns from startAzimuth over azimuthSpan,

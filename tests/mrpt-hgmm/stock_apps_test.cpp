@@ -233,11 +233,17 @@ TEST_F(StockApps, MisspeltKeyWarnsAndBadValueFails) {
         << tail(refused.output);
 }
 
+// MRPT 2.5 ignores it without a word, later releases refuse the configuration.
 TEST_F(StockApps, WithoutThePluginTheMapIsUnknown) {
     edit("pf-localization.ini", "particles_count *=.*", "particles_count = 500");
     edit("pf-localization.ini", "KLD_maxSampleSize *=.*", "KLD_maxSampleSize = 500");
     const auto result =
         stock_app::run("pf-localization pf-localization.ini", folder, 60, false);
+#if HGMM_MRPT_HAS_NEAREST_NEIGHBOURS
+    EXPECT_NE(result.exitCode, 0);
+    EXPECT_NE(result.output.find("hgmmMap"), std::string::npos) << tail(result.output);
+    return;
+#endif
     EXPECT_EQ(result.exitCode, 0) << tail(result.output);
     EXPECT_NE(result.output.find("PDF estimation"), std::string::npos)
         << tail(result.output);

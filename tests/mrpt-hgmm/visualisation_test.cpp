@@ -44,8 +44,8 @@ TEST(Visualisation, OneEllipsoidPerComponentInTheMapFrame) {
         const auto shape = ellipsoidAt(objects, i + 1);
         ASSERT_TRUE(shape);
         const auto g = mixture[i];
-        EXPECT_NEAR(shape->getPoseX(), map.model().origin().x() + g.mean[0], 1e-6);
-        EXPECT_NEAR(shape->getPoseZ(), map.model().origin().z() + g.mean[2], 1e-6);
+        EXPECT_NEAR(shape->getPose().x, map.model().origin().x() + g.mean[0], 1e-6);
+        EXPECT_NEAR(shape->getPose().z, map.model().origin().z() + g.mean[2], 1e-6);
         EXPECT_EQ(shape->getCovMatrix()(0, 1), g.covariance(0, 1));
         EXPECT_FLOAT_EQ(shape->getQuantiles(), 2.F);
     }
@@ -61,7 +61,7 @@ TEST(Visualisation, ObeysItsOptions) {
     map.renderOptions.maxEllipsoids = 1;
     const auto shape = ellipsoidAt(*map.getVisualization(), 0);
     for (std::size_t i = 0; i < all; ++i)
-        if (std::abs(shape->getPoseX() - map.model().origin().x() -
+        if (std::abs(shape->getPose().x - map.model().origin().x() -
                      map.model().mixture().mean[0][i]) < 1e-6)
             smallestDrawn = std::min(smallestDrawn, map.model().mixture().support[i]);
     EXPECT_EQ(smallestDrawn, heaviest);
@@ -127,7 +127,7 @@ TEST(Visualisation, FreeSpaceIsTranslucentAndOptional) {
     const auto shape = ellipsoidAt(*objects, 0);
     ASSERT_TRUE(shape);
     EXPECT_LT(shape->getColor().A, 0.5F);
-    EXPECT_NEAR(shape->getPoseX(), map.model().origin().x() + mixture.mean[0][0], 1e-6);
+    EXPECT_NEAR(shape->getPose().x, map.model().origin().x() + mixture.mean[0][0], 1e-6);
     EXPECT_EQ(shape->getCovMatrix()(1, 2), mixture[0].covariance(1, 2));
 }
 

@@ -29,13 +29,12 @@ SimpleMapSource::SimpleMapSource(const std::string& file) {
     if (!std::filesystem::exists(file)) failFile(file, "does not exist");
     mrpt::maps::CSimpleMap map;
     if (!read(map, file)) failFile(file, "is not a simple map of MRPT, or is damaged");
-    for (std::size_t i = 0; i < map.size(); ++i) {
-        const auto& [pose, frame] = map.get(i);
-        for (const auto& observation : *frame) {
+    for (const auto& keyframe : map) {
+        for (const auto& observation : *keyframe.sf) {
             if (!mrpt_bridge::isSupported(*observation)) continue;
             ImportedScan scan;
             scan.observation = observation;
-            scan.T_world_robot = fromMrpt(pose->getMeanVal());
+            scan.T_world_robot = fromMrpt(keyframe.pose->getMeanVal());
             scans_.push_back(std::move(scan));
         }
     }

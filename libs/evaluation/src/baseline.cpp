@@ -82,7 +82,8 @@ double resolutionOf(const std::string& text, const std::string& specification) {
 std::unique_ptr<Baseline> makeBaseline(const std::string& specification,
                                        SensorKind sensor) {
     const std::size_t colon = specification.find(':');
-    const Entry& entry = entryOf(specification.substr(0, colon), specification);
+    const std::string name = specification.substr(0, colon);
+    const Entry& entry = entryOf(name, specification);
     if (colon == std::string::npos)
         return entry.make(sensor == SensorKind::lidar ? entry.lidar_m
                                                       : entry.depthCamera_m);

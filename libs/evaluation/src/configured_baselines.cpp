@@ -41,7 +41,8 @@ void appendDefinitions(const mrpt::config::CConfigFile& config, const std::strin
         Definition definition;
         definition.section = section;
         definition.name = mrpt::format("%s_%02d", kind.c_str(), i);
-        definition.initializer.reset(registry.factoryMapDefinition(kind));
+        definition.initializer =
+            decltype(definition.initializer)(registry.factoryMapDefinition(kind));
         if (definition.initializer->getMetricMapClassType()->className ==
             std::string(kOwnClass))
             return;

@@ -23,7 +23,7 @@ void requireStride(const mrpt::maps::TMatchingParams& params) {
 }
 
 /// Of pairs with the same projection, leaves the closest, and the first of equals.
-void keepClosestOfSameFoot(mrpt::tfest::TMatchingPairList& pairs) {
+void keepClosestOfSameProjection(mrpt::tfest::TMatchingPairList& pairs) {
     const auto projection = [](const mrpt::tfest::TMatchingPair& p) {
         return std::make_tuple(p.globalIdx, float{p.global.x}, float{p.global.y},
                                float{p.global.z});
@@ -81,6 +81,11 @@ SurfaceMatching::SharedSurfaces<D> SurfaceMatching::surfacesOf(const Map& map) c
     return kept;
 }
 
+template SurfaceMatching::SharedSurfaces<2> SurfaceMatching::surfacesOf<2>(
+    const Map&) const;
+template SurfaceMatching::SharedSurfaces<3> SurfaceMatching::surfacesOf<3>(
+    const Map&) const;
+
 template <int D>
 void SurfaceMatching::match(const Map& map, const PointsView& other,
                             const mrpt::poses::CPose3D& T_map_other,
@@ -121,7 +126,7 @@ void SurfaceMatching::match(const Map& map, const PointsView& other,
     results.correspondencesRatio =
         static_cast<float>(double(pairs.size()) / double(considered));
     results.sumSqrDist = static_cast<float>(sum_m2 / double(pairs.size()));
-    if (params.onlyUniqueRobust) keepClosestOfSameFoot(pairs);
+    if (params.onlyUniqueRobust) keepClosestOfSameProjection(pairs);
 }
 
 template void SurfaceMatching::match<2>(const Map&, const PointsView&,

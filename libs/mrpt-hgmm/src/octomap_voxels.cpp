@@ -98,7 +98,7 @@ mrpt::img::TColor voxelColour(COctoMapVoxels::visualization_mode_t mode,
             brightness = 255 * height;
             opacity = opaqueWhereOccupied;
             break;
-        case COctoMapVoxels::FIXED:
+        default:  // FIXED, and colours that come with the data
             break;
     }
     const auto byte = [](double v) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hgmm/mrpt_bridge/mrpt_compat.h"
 #include "scan_readers.h"
 
 using namespace mrpt::obs;
@@ -30,23 +31,24 @@ float measured(float value) {
 
 /// What a cloud's intensities are to be multiplied by. MRPT asks for [0, 1], but drivers
 /// and files also hold the counts of 8 or 16 bits; which it is shows in the largest.
-float intensityScale(const mrpt::maps::CPointsMapXYZI& cloud) {
+template <typename Intensities>
+float intensityScale(const Intensities& intensities) {
     float largest = 0.F;
-    for (const float value : cloud.getPointsBufferRef_intensity())
+    for (const float value : intensities)
         if (std::isfinite(value)) largest = std::max(largest, value);
     return largest <= 1.F ? 1.F : largest <= 255.F ? 1.F / 255.F : 1.F / 65535.F;
 }
 
 void readCloud(const mrpt::maps::CPointsMap& cloud, Channels channels, Scan& scan) {
-    if (const auto* xyzi = dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&cloud)) {
+    const auto* coloured = dynamic_cast<const mrpt::maps::CColouredPointsMap*>(&cloud);
+    if (const auto* intensities = intensitiesOf<mrpt::maps::CPointsMapXYZI>(cloud)) {
         ScanWriter writer(scan, channels, {"intensity"});
         writer.reserve(cloud.size());
-        const float scale = intensityScale(*xyzi);
+        const float scale = intensityScale(*intensities);
         forEachPoint(cloud, [&](std::size_t i, float x, float y, float z) {
-            writer.pushBack(x, y, z, measured(scale * xyzi->getPointIntensity_fast(i)));
+            writer.pushBack(x, y, z, measured(scale * (*intensities)[i]));
         });
-    } else if (const auto* coloured =
-                   dynamic_cast<const mrpt::maps::CColouredPointsMap*>(&cloud)) {
+    } else if (coloured && hasColours(*coloured)) {
         ScanWriter writer(scan, channels, {"r", "g", "b"});
         writer.reserve(cloud.size());
         forEachPoint(cloud, [&](std::size_t i, float x, float y, float z) {

@@ -2,7 +2,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "hgmm/export.h"
@@ -54,6 +56,18 @@ class SurfaceProjection {
     /// The nearest projection at any distance. Nothing, if there are no surfaces or the
     /// point is not finite. Thread-safe.
     std::optional<Projection> nearest(const Point& point) const;
+
+    /// The projections on the `count` nearest surfaces, of those whose squared distance is
+    /// at most maxSquaredDistance_m2: nearest first, the lower index first of equals. None,
+    /// if the point is not finite. Thread-safe.
+    std::vector<Projection> neighbours(
+        const Point& point, std::size_t count,
+        float maxSquaredDistance_m2 = std::numeric_limits<float>::infinity()) const;
+
+    /// Lowest and highest corner of the box around all components within `kExtentSigmas`
+    /// along each of their principal axes [m]: around all surfaces, with their thickness.
+    /// Nothing, if there are no surfaces.
+    std::optional<std::pair<Point, Point>> bounds() const;
 
     static constexpr float kKernelWidthPerRadius = 0.42F;
 

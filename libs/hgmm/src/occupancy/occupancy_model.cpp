@@ -147,8 +147,8 @@ void OccupancyModel::addBand(const Band& band, const T* x, Sums<T>& sums) const 
     const T occupied = double(band.peak) * column * hit;
     const T free = double(band.peak) * column * mass *
                    (tau * kSqrtTwoPi * double(band.freePerMetre)) * fall;
-    sums.occupied += occupied;
-    sums.free += free;
+    sums.occupied += occupied;  // thesis eq. (4.15)
+    sums.free += free;          // thesis eq. (4.16)
     const T outside = valueOf(t) < 0 ? t : valueOf(t) > reach ? t - reach : T(0.0);
     sums.known +=
         tapered(exp(-0.5 * (sharpness_ * beside + precision * outside * outside)));

@@ -175,13 +175,15 @@ auto SurfaceProjection<D>::mostLikely(const Point& point, float radius_m) const
     static_assert(kKernelWidthPerRadius * kExtentSigmas >= 1);
     const auto prune = [&](const Node& node, float squaredDistance_m2) {
         return !(squaredDistance_m2 < bound) ||
-               squaredDistance_m2 > bestMahalanobis * (node.thickest_m2 + kernelVariance_m2);
+               squaredDistance_m2 >
+                   bestMahalanobis * (node.thickest_m2 + kernelVariance_m2);
     };
     visitNear(point, prune, [&](const Surface& surface) {
         const Point offset = alongAxes(surface, point);
         float mahalanobis = 0;
         for (int a = 0; a < D; ++a)
-            mahalanobis += offset[a] * offset[a] / (surface.variance[a] + kernelVariance_m2);
+            mahalanobis +=
+                offset[a] * offset[a] / (surface.variance[a] + kernelVariance_m2);
         const bool better =
             mahalanobis < bestMahalanobis ||
             (best && mahalanobis == bestMahalanobis && surface.component < best->component);
@@ -209,6 +211,52 @@ auto SurfaceProjection<D>::nearest(const Point& point) const -> std::optional<Pr
         bound = projection.squaredDistance_m2;
     });
     return best;
+}
+
+template <int D>
+auto SurfaceProjection<D>::neighbours(const Point& point, std::size_t count,
+                                      float maxSquaredDistance_m2) const
+    -> std::vector<Projection> {
+    std::vector<Projection> kept;  // a heap, the farthest first
+    if (count == 0 || !isFinite(point)) return kept;
+    const auto isCloser = [](const Projection& a, const Projection& b) {
+        return std::tie(a.squaredDistance_m2, a.component) <
+               std::tie(b.squaredDistance_m2, b.component);
+    };
+    float bound = maxSquaredDistance_m2;
+    const auto prune = [&](const Node&, float squaredDistance_m2) {
+        return !(squaredDistance_m2 <= bound);
+    };
+    visitNear(point, prune, [&](const Surface& surface) {
+        const Projection projection = projectionOf(surface, alongAxes(surface, point));
+        if (!(projection.squaredDistance_m2 <= bound)) return;
+        if (kept.size() == count) {
+            if (!isCloser(projection, kept.front())) return;
+            std::pop_heap(kept.begin(), kept.end(), isCloser);
+            kept.pop_back();
+        }
+        kept.push_back(projection);
+        std::push_heap(kept.begin(), kept.end(), isCloser);
+        if (kept.size() == count) bound = kept.front().squaredDistance_m2;
+    });
+    std::sort_heap(kept.begin(), kept.end(), isCloser);
+    return kept;
+}
+
+template <int D>
+auto SurfaceProjection<D>::bounds() const -> std::optional<std::pair<Point, Point>> {
+    if (surfaces_.empty()) return {};
+    std::pair<Point, Point> corners{surfaces_[0].mean, surfaces_[0].mean};
+    for (const Surface& surface : surfaces_)
+        for (int d = 0; d < D; ++d) {
+            float half = 0;
+            for (int a = 0; a < D; ++a)
+                half += kExtentSigmas * std::sqrt(surface.variance[a]) *
+                        std::abs(surface.axes[a][d]);
+            corners.first[d] = std::min(corners.first[d], surface.mean[d] - half);
+            corners.second[d] = std::max(corners.second[d], surface.mean[d] + half);
+        }
+    return corners;
 }
 
 template <int D>

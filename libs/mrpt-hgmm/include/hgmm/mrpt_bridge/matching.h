@@ -62,17 +62,18 @@ class SurfaceMatching {
     /// [m^2]; infinity if the map is empty or the point not finite.
     float squaredDistance(const Map& map, float x, float y) const;
 
+    template <int D>
+    using SharedSurfaces = std::shared_ptr<const SurfaceProjection<D>>;
+    /// The surfaces of a map, in its local frame; made here, if they are not yet.
+    template <int D>
+    SharedSurfaces<D> surfacesOf(const Map& map) const;
+
     /// To be called when the map has changed.
     void invalidate();
 
  private:
     template <int D>
-    using SharedSurfaces = std::shared_ptr<const SurfaceProjection<D>>;
-
-    template <int D>
     SharedSurfaces<D>& surfaces() const;
-    template <int D>
-    SharedSurfaces<D> surfacesOf(const Map& map) const;
 
     mutable std::mutex mutex_;
     mutable SharedSurfaces<2> surfaces2D_;

@@ -1,6 +1,7 @@
 #pragma once
 #include <mrpt/config/CLoadableOptions.h>
 #include <mrpt/maps/CMetricMap.h>
+#include <mrpt/math/TBoundingBox.h>
 #include <mrpt/math/TPoint3D.h>
 #include <mrpt/opengl/COctoMapVoxels.h>
 
@@ -10,6 +11,7 @@
 #include "hgmm/mrpt_bridge/likelihood.h"
 #include "hgmm/mrpt_bridge/matching.h"
 #include "hgmm/mrpt_bridge/mrpt_compat.h"
+#include "hgmm/mrpt_bridge/nearest_neighbours.h"
 #include "hgmm/mrpt_bridge/render_params.h"
 
 namespace mrpt::maps {
@@ -24,7 +26,7 @@ namespace mrpt::maps {
 /// Observations of the types listed at ::hgmm::mrpt_bridge::observationToScan can be
 /// inserted and have a likelihood. Const member functions may be called from several
 /// threads at once.
-class CHGMMOccupancyMap : public CMetricMap {
+class CHGMMOccupancyMap : public CMetricMap, public ::hgmm::mrpt_bridge::NearestNeighbours {
     DEFINE_SERIALIZABLE(CHGMMOccupancyMap, mrpt::maps)
 
  public:
@@ -174,9 +176,17 @@ class CHGMMOccupancyMap : public CMetricMap {
     /// Squared horizontal distance to the nearest surface [m^2], infinity if the map is
     /// empty or the point not finite.
     float squareDistanceToClosestCorrespondence(float x0, float y0) const override;
+    /// The box [m] around all surfaces, with their thickness: 2.4 standard deviations from
+    /// the components' means along each principal axis. It holds all points that nn_*
+    /// functions return; all 0 if the map is empty.
+    auto boundingBox() const -> mrpt::math::TBoundingBoxf HGMM_OVERRIDE_SINCE_2_11_3;
     /// @}
 
  private:
+    const ::hgmm::Map& neighboursModel() const override { return model_; }
+    const ::hgmm::mrpt_bridge::SurfaceMatching& neighboursSurfaces() const override {
+        return matching_;
+    }
     void internal_clear() override;
     bool internal_insertObservation(
         const mrpt::obs::CObservation& observation,
