@@ -10,8 +10,8 @@
 namespace equality {
 
 /// Adds what a map says as MRPT asks it: likelihoods of scans about their poses, pairs with
-/// their points, occupancy, rays, distances; and its bytes as an MRPT object but those of
-/// options, with the likelihoods of the object read back.
+/// their points, occupancy, rays, distances; and its bytes as an MRPT object, with the
+/// likelihoods of the object read back.
 void addPluginAnswers(Dump& dump, const mrpt::maps::CHGMMOccupancyMap& map,
                       const std::vector<RecordedScan>& scans, const Questions& questions);
 

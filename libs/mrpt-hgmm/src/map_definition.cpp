@@ -7,6 +7,7 @@
 #include "modality_warnings.h"
 #include "option_fields.h"
 #include "read_options.h"
+#include "repeated_keys.h"
 #include "section_names.h"
 
 namespace fs = std::filesystem;
@@ -39,6 +40,7 @@ void CHGMMOccupancyMap::TMapDefinition::loadFromConfigFile_map_specific(
     bridge::CreationOptions known;
     bridge::warnOfUnknownKeys(bridge::fieldsOf(known), source, creation);
     bridge::warnOfUnreadSections(source, prefix);
+    bridge::warnOfRepeatedKeys(source, prefix);
 
     load_file = resolved(source.read_string(creation, "load_file", load_file), source);
     insertionOpts.loadFromConfigFile(source, prefix + "_insertOpts");
