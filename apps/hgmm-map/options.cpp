@@ -65,7 +65,7 @@ void printMarkdown(const std::vector<OptionInfo>& options) {
         options,
         [](const std::string& section) {
             std::printf(
-                "\n## [<section>_hgmmMap_00_%s]\n\n"
+                "\n## `[<section>_hgmmMap_00_%s]`\n\n"
                 "| option | default | unit | range | what | formerly |\n"
                 "| --- | --- | --- | --- | --- | --- |\n",
                 section.c_str());

@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <map>
 #include <set>
@@ -67,9 +71,10 @@ TEST(OptionTable, NamesFieldsAndDefaultsAreEachTheirOwn) {
             EXPECT_GE(field, row.low) << row.name;
             EXPECT_LE(field, row.high) << row.name;
         }
-        if (std::strlen(row.name) > 2 &&
-            std::strcmp(row.name + std::strlen(row.name) - 2, "_m") == 0)
-            EXPECT_STREQ(row.unit, "m") << row.name;
+        const std::string name = row.name;
+        if (name.substr(name.size() - 2) == "_m") {
+            EXPECT_STREQ(row.unit, "m") << name;
+        }
     });
     EXPECT_EQ(fields.size(), rows);
     EXPECT_EQ(names.size(), rows + 2);  // two former names
@@ -123,6 +128,16 @@ TEST(OptionTable, MessagesSayNameValueAndRange) {
     params.occupancy.knownSigmas = 2;
     EXPECT_EQ(errorOf([&] { params.validate(); }),
               "extentSigmas = 2.4: must be in [1, 2], as knownSigmas is 2");
+}
+
+TEST(OptionTable, NumbersReadBackTheSameAndAreShort) {
+    for (const auto& [number, text] :
+         {std::pair{1e5, "100000"}, std::pair{1e-4, "0.0001"}, std::pair{1e-9, "1e-09"},
+          std::pair{0.1, "0.1"}, std::pair{0.0, "0"}, std::pair{-2.5, "-2.5"},
+          std::pair{1e300, "1e+300"}, std::pair{1.0 / 3.0, "0.3333333333333333"}}) {
+        EXPECT_EQ(numberText(number), text);
+        EXPECT_EQ(std::strtod(numberText(number).c_str(), nullptr), number);
+    }
 }
 
 TEST(OptionTable, OfTwoThatDoNotFitTheOneThatWasSetIsNamed) {

@@ -61,7 +61,7 @@ hgmm::MapParams paramsOf(const std::string& lines) {
 }
 
 TEST(OptionSlips, RightConfigurationsAreReadInSilence) {
-    for (const std::string text :
+    for (const std::string& text :
          {kOneMap, kOneMap + "[m_hgmmMap_00_insertOpts]\nlevels = 3\n",
           kOneMap + "logOutput_dir = x\n[m_hgmmMap_00_creationOpts]\nload_file =\n"
                     "[m_hgmmMap_00_renderOpts]\nlevel = 1\n",

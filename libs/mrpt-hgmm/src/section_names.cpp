@@ -17,10 +17,9 @@ using mrpt::config::CConfigFileBase;
 /// Names of the map's class in configurations.
 constexpr const char* kKinds[] = {"hgmmMap", "mrpt::maps::CHGMMOccupancyMap"};
 
-/// "<parent>_<kind>_<number>", as MRPT begins the names of a map's sections.
+/// "<parent>_<kind>_", as MRPT begins the names of maps' sections.
 struct Prefix {
     std::string parent, kind;
-    unsigned long number = 0;
 
     std::string common() const { return parent + "_" + kind; }
 };
@@ -39,8 +38,7 @@ std::optional<Prefix> prefixOf(const std::string& prefix) {
         const std::string end = "_" + kind;
         if (last < end.size() || prefix.compare(last - end.size(), end.size(), end) != 0)
             continue;
-        return Prefix{prefix.substr(0, last - end.size()), kind,
-                      std::stoul(prefix.substr(last + 1))};
+        return Prefix{prefix.substr(0, last - end.size()), kind};
     }
     return std::nullopt;
 }
@@ -154,7 +152,6 @@ void warnOfUnreadSections(const CConfigFileBase& source, const std::string& pref
                 warnOfSection(section, nearestSection(section, prefix));
         return;
     }
-    if (first->number != 0) return;
     checkParentKeys(source, *first);
     for (const std::string& section : sections)
         if (startsWith(section, first->common()))

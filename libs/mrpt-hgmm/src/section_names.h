@@ -14,8 +14,8 @@ std::string siblingSection(const std::string& section, const std::string& end);
 /// unknown ends, without the number of the map, with a number that is written in another
 /// way or belongs to no map, or that no `hgmmMap_count` goes with; and options beside
 /// `hgmmMap_count`.
-/// @param prefix "<parent>_hgmmMap_00"; what is common to all maps of a parent is reported
-/// for the first of them
+/// @param prefix "<parent>_hgmmMap_00"; maps of one parent are told the same, which is said
+/// once
 void warnOfUnreadSections(const mrpt::config::CConfigFileBase& source,
                           const std::string& prefix);
 

@@ -65,8 +65,9 @@ void requireInRange(const std::vector<OptionValue>& values, const WasSet& wasSet
 
 std::string numberText(double number) {
     char text[64];
-    // Round numbers are not written as 1e+05.
-    const bool isPlain = number == std::round(number) && std::abs(number) < 1e15;
+    // Numbers of usual size are not written as 1e+05 or 1e-04.
+    const double size = std::abs(number);
+    const bool isPlain = number == 0.0 || (size >= 1e-5 && size < 1e15);
     const auto end =
         isPlain ? std::to_chars(text, text + sizeof text, number, std::chars_format::fixed)
                 : std::to_chars(text, text + sizeof text, number);
