@@ -14,7 +14,7 @@
 namespace hgmm {
 namespace {
 
-std::string errorOf(const std::function<void()>& act) {
+std::string errorOfOptions(const std::function<void()>& act) {
     try {
         act();
     } catch (const std::invalid_argument& e) {
@@ -104,7 +104,7 @@ TEST(OptionTable, EveryNumberIsRefusedOutsideOfItsRangeByName) {
         }
         for (const Number value : wrong) {
             field = value;
-            const std::string said = errorOf([&] { params.validate(); });
+            const std::string said = errorOfOptions([&] { params.validate(); });
             EXPECT_EQ(said.rfind(std::string(row.name) + " = ", 0), 0U) << said;
             EXPECT_NE(said.find("must be in ["), std::string::npos) << said;
         }
@@ -115,18 +115,18 @@ TEST(OptionTable, EveryNumberIsRefusedOutsideOfItsRangeByName) {
 }
 
 TEST(OptionTable, MessagesSayNameValueAndRange) {
-    EXPECT_EQ(errorOf([] { requireInRange("share", 2.5, 1e-9, 0.75); }),
+    EXPECT_EQ(errorOfOptions([] { requireInRange("share", 2.5, 1e-9, 0.75); }),
               "share = 2.5: must be in [1e-09, 0.75]");
-    EXPECT_EQ(errorOf([] { requireInRange("n", 0, 1, 1e5); }),
+    EXPECT_EQ(errorOfOptions([] { requireInRange("n", 0, 1, 1e5); }),
               "n = 0: must be in [1, 100000]");
-    EXPECT_EQ(errorOf([] { requireInRange("n", 1, 1, 1e5); }), "");
+    EXPECT_EQ(errorOfOptions([] { requireInRange("n", 1, 1, 1e5); }), "");
     MapParams params;
     params.filter.maxRange_m = 0.05;
-    EXPECT_EQ(errorOf([&] { params.validate(); }),
+    EXPECT_EQ(errorOfOptions([&] { params.validate(); }),
               "maxRange_m = 0.05: must be in [0.1, 100000], as minRange_m is 0.1");
     params = {};
     params.occupancy.knownSigmas = 2;
-    EXPECT_EQ(errorOf([&] { params.validate(); }),
+    EXPECT_EQ(errorOfOptions([&] { params.validate(); }),
               "extentSigmas = 2.4: must be in [1, 2], as knownSigmas is 2");
 }
 
@@ -144,7 +144,7 @@ TEST(OptionTable, OfTwoThatDoNotFitTheOneThatWasSetIsNamed) {
     OccupancyParams params;
     params.knownSigmas = 2;
     const auto errorIfSet = [&](const std::set<std::string>& set) {
-        return errorOf([&] {
+        return errorOfOptions([&] {
             requireOptionsInRange(params,
                                   [&](const std::string& name) { return set.count(name); });
         });
@@ -209,12 +209,12 @@ TEST(Resolution, WholeRangeIsValid) {
     for (const double resolution_m : {5e-3, 0.01, 0.3, 10.0}) {
         MapParams params;
         params.setResolution(resolution_m);
-        EXPECT_EQ(errorOf([&] { params.validate(); }), "");
+        EXPECT_EQ(errorOfOptions([&] { params.validate(); }), "");
     }
     for (const double wrong : {0.0, -1.0, 11.0, std::nan("")}) {
         MapParams params;
         params.setResolution(wrong);
-        EXPECT_EQ(errorOf([&] { params.validate(); }).rfind("resolution_m = ", 0), 0U);
+        EXPECT_EQ(errorOfOptions([&] { params.validate(); }).rfind("resolution_m = ", 0), 0U);
     }
 }
 
