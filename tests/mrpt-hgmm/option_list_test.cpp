@@ -8,17 +8,12 @@
 #include <string>
 
 #include "edited_options.h"
+#include "insertion_options.h"
 
 using mrpt::config::CConfigFileMemory;
 using mrpt::maps::CHGMMOccupancyMap;
 
 namespace {
-
-hgmm::MapParams paramsOf(const std::string& lines) {
-    CHGMMOccupancyMap::TInsertionOptions options;
-    options.loadFromConfigFile(CConfigFileMemory("[s]\n" + lines + "\n"), "s");
-    return options.params;
-}
 
 TEST(ResolutionInFiles, LengthsThatAFileDoesNotGiveFollow) {
     hgmm::MapParams wanted;

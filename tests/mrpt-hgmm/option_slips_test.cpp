@@ -12,6 +12,7 @@
 
 #include "edited_options.h"
 #include "hgmm/mrpt_bridge/option_list.h"
+#include "insertion_options.h"
 #include "warnings.h"
 
 using mrpt::config::CConfigFileMemory;
@@ -52,12 +53,6 @@ std::string errorOf(const std::string& lines) {
         return e.what();
     }
     return "";
-}
-
-hgmm::MapParams paramsOf(const std::string& lines) {
-    CHGMMOccupancyMap::TInsertionOptions options;
-    options.loadFromConfigFile(CConfigFileMemory("[s]\n" + lines + "\n"), "s");
-    return options.params;
 }
 
 TEST(OptionSlips, RightConfigurationsAreReadInSilence) {
