@@ -32,8 +32,8 @@ struct Neighbourhoods {
     std::vector<std::uint32_t> component;
 };
 
-/// Engine: a sample sees its neighbourhood only. Cost is linear in the number of samples.
-/// The library has it for D = 2 and 3.
+/// The fast one: a sample sees its neighbourhood only. Cost is linear in the number of
+/// samples. The library has it for D = 2 and 3.
 template <int D>
 HGMM_EXPORT EmResult<D> fitSparse(const Mixture<D>& samples, const Mixture<D>& initial,
                                   const Neighbourhoods& neighbourhoods,
@@ -81,8 +81,8 @@ double logDensity(const Mixture<D>& mixture, const double* x) {
 }
 
 /// The components within `sigmas` of each point, or the likeliest one where there are none:
-/// what fitSparse asks for where no first guess told. Throws std::invalid_argument for an
-/// empty mixture.
+/// neighbourhoods for fitSparse without a first guess by cells. Throws
+/// std::invalid_argument for an empty mixture.
 /// @param points the coordinates of point i are at [d][i]
 HGMM_EXPORT Neighbourhoods neighbourhoodsOf(const std::array<std::vector<float>, 3>& points,
                                             const Mixture<3>& mixture, double sigmas);

@@ -40,7 +40,7 @@ struct FilterParams {
 /// scan. In the thesis the low density of wide components prevents that; here a component
 /// explains only samples at which it is thin beside the cells of a first guess.
 struct NoveltyParams {
-    double maxMahalanobis = 3.0;  ///< [sigma], in (0, 4]
+    double maxMahalanobis = 3.0;  ///< [sigma], in [0.1, 4]
     /// Standard deviation across the surface that a ray meets, besides that of the noise
     /// [cell edges at the ray's range, CellParams::edgeAt], in [0.001, 1000]. The default,
     /// 1 / sqrt(12), is that of hits all over a cell.

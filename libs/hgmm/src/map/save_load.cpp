@@ -169,6 +169,7 @@ void putComponents(Writer& out, const Model& model, Encoding encoding) {
             encodeSurfaces(surfaces, views, blockOrder(surfaces), b);
         });
         putSection(out, [&](auto& b) { encodeFree(free, octaves, blockOrder(free), b); });
+        // Once the thesis' own free space; the format has its place.
         putSection(out, [&](auto& b) { encodeFree({}, {}, {}, b); });
         return;
     }
