@@ -226,7 +226,7 @@ TEST_F(StockApps, MisspeltKeyWarnsAndBadValueFails) {
     EXPECT_NE(warned.output.find("unknown key 'resolutionm'"), std::string::npos);
     EXPECT_NE(warned.output.find("did you mean 'resolution_m'"), std::string::npos);
 
-    edit("observations2map.ini", "resolution_m = 0.04", "resolution_m = thick");
+    edit("observations2map.ini", "resolutionm = 0.04", "resolution_m = thick");
     const auto refused = stock_app::run(command, folder);
     EXPECT_NE(refused.exitCode, 0);
     EXPECT_NE(refused.output.find("resolution_m = 'thick'"), std::string::npos)
