@@ -10,7 +10,7 @@
 #include "options.h"
 #include "replay_scans.h"
 #include "report.h"
-#include "studies.h"
+#include "studies/studies.h"
 #include "table.h"
 #include "threads.h"
 

@@ -49,7 +49,7 @@ refused libs/hgmm/include/hgmm/scan.h mrpt/maps/CMetricMap.h 'a public header in
     'a public header of the core that includes MRPT'
 refused libs/mrpt-hgmm/src/map_file.cpp hgmm/evaluation/roc.h 'libs/mrpt-hgmm includes hgmm/evaluation/roc.h' \
     'the plugin that includes the evaluation library'
-refused libs/evaluation/src/roc.cpp CLI/CLI.hpp 'libs/evaluation includes CLI/CLI.hpp' \
+refused libs/evaluation/src/figures/roc.cpp CLI/CLI.hpp 'libs/evaluation includes CLI/CLI.hpp' \
     'the evaluation library that includes what belongs to programs'
 
 mkdir "$copy/libs/hgmm/src/misc"
