@@ -8,8 +8,8 @@
 
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
 #include "laser_room.h"
+#include "observation/shared_samples.h"
 #include "observations.h"
-#include "shared_samples.h"
 
 using mrpt::maps::CHGMMOccupancyMap;
 using mrpt::poses::CPose3D;

@@ -13,7 +13,7 @@
 #include "edited_options.h"
 #include "hgmm/mrpt_bridge/option_list.h"
 #include "insertion_options.h"
-#include "warnings.h"
+#include "options/warnings.h"
 
 using mrpt::config::CConfigFileMemory;
 using mrpt::maps::CHGMMOccupancyMap;

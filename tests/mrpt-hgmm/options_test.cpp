@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "edited_options.h"
-#include "warnings.h"
+#include "options/warnings.h"
 
 using mrpt::config::CConfigFileMemory;
 using mrpt::maps::CHGMMOccupancyMap;

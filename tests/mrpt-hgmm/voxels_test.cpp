@@ -9,9 +9,9 @@
 #include <set>
 #include <tuple>
 
+#include "display/octomap_voxels.h"
 #include "hgmm/mrpt_bridge/voxel_grid.h"
 #include "lit_room.h"
-#include "octomap_voxels.h"
 
 using hgmm::mrpt_bridge::Voxel;
 using hgmm::mrpt_bridge::VoxelGrid;

@@ -47,7 +47,7 @@ refused libs/hgmm/src/map/insert.cpp mrpt/maps/CMetricMap.h "the core includes M
     'the core that includes MRPT'
 refused libs/hgmm/include/hgmm/scan.h mrpt/maps/CMetricMap.h 'a public header includes mrpt/' \
     'a public header of the core that includes MRPT'
-refused libs/mrpt-hgmm/src/map_file.cpp hgmm/evaluation/roc.h 'libs/mrpt-hgmm includes hgmm/evaluation/roc.h' \
+refused libs/mrpt-hgmm/src/map/map_file.cpp hgmm/evaluation/roc.h 'libs/mrpt-hgmm includes hgmm/evaluation/roc.h' \
     'the plugin that includes the evaluation library'
 refused libs/evaluation/src/figures/roc.cpp CLI/CLI.hpp 'libs/evaluation includes CLI/CLI.hpp' \
     'the evaluation library that includes what belongs to programs'
