@@ -88,8 +88,8 @@ std::pair<double, double> cellsWithin(double middle, double reach) {
 /// that cells about a thin one are among them. Returns false, at once, if the blob reaches
 /// beyond a CellSet or far more than `maxCells` would be looked at, and when visit does.
 template <typename Visitor>
-bool forEachRow(const Blob& blob, const Lattice& lattice, std::size_t maxCells,
-                Visitor&& visit) {
+bool forEachLatticeRow(const Blob& blob, const Lattice& lattice, std::size_t maxCells,
+                       Visitor&& visit) {
     const Eigen::Vector3d mean = (blob.mean - lattice.corner_local) / lattice.edge_m;
     const Eigen::Matrix3d C = blob.covariance / (lattice.edge_m * lattice.edge_m) +
                               0.25 * Eigen::Matrix3d::Identity();
@@ -132,7 +132,7 @@ bool forEachRow(const Blob& blob, const Lattice& lattice, std::size_t maxCells,
 bool enterCells(const std::vector<Blob>& blobs, const Lattice& lattice,
                 std::size_t maxCells, CellSet& cells) {
     for (const Blob& blob : blobs) {
-        const bool fits = forEachRow(
+        const bool fits = forEachLatticeRow(
             blob, lattice, maxCells,
             [&](std::int32_t x, std::int32_t y, std::int32_t z0, std::int32_t z1) {
                 cells.insertRow(x, y, z0, z1);
@@ -248,16 +248,17 @@ void askMidPlane(const Blob& blob, const Region& region, CellAnswers& answers) {
     const Eigen::Vector3d mean_map = blob.mean + lattice.corner_map - lattice.corner_local;
     const std::size_t meansCell = region.cells.indexOf(lattice.cellOf(mean_map));
     if (meansCell < region.cells.size()) answers.ask(meansCell, mean_map);
-    forEachRow(blob, lattice, VoxelParams::kMaxCells,
-               [&](std::int32_t x, std::int32_t y, std::int32_t z0, std::int32_t z1) {
-                   for (std::int32_t z = z0; z <= z1; ++z) {
-                       const Eigen::Vector3d centre = lattice.centre_map({x, y, z});
-                       const Eigen::Vector3d shift = normal.dot(mean_map - centre) * normal;
-                       if (shift.cwiseAbs().maxCoeff() <= 0.5 * lattice.edge_m)
-                           answers.ask(region.cells.indexOf({x, y, z}), centre + shift);
-                   }
-                   return true;
-               });
+    forEachLatticeRow(
+        blob, lattice, VoxelParams::kMaxCells,
+        [&](std::int32_t x, std::int32_t y, std::int32_t z0, std::int32_t z1) {
+            for (std::int32_t z = z0; z <= z1; ++z) {
+                const Eigen::Vector3d centre = lattice.centre_map({x, y, z});
+                const Eigen::Vector3d shift = normal.dot(mean_map - centre) * normal;
+                if (shift.cwiseAbs().maxCoeff() <= 0.5 * lattice.edge_m)
+                    answers.ask(region.cells.indexOf({x, y, z}), centre + shift);
+            }
+            return true;
+        });
 }
 
 }  // namespace
