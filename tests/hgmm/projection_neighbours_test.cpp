@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "hgmm/surface_projection.h"
+#include "hgmm/projection.h"
 
 namespace hgmm {
 namespace {
@@ -23,8 +23,9 @@ Mixture<3> doubledWalls(int n) {
 std::vector<std::uint32_t> indices(const SurfaceProjection<3>& surfaces, std::size_t count,
                                    float maxSquaredDistance_m2) {
     std::vector<std::uint32_t> all;
-    for (const auto& foot : surfaces.neighbours({0, 0, 0}, count, maxSquaredDistance_m2))
-        all.push_back(foot.component);
+    for (const auto& projection :
+         surfaces.neighbours({0, 0, 0}, count, maxSquaredDistance_m2))
+        all.push_back(projection.component);
     return all;
 }
 
