@@ -20,12 +20,8 @@ includes() {
     grep -rHoE '^#include [<"][^>"]+[>"]' "$@" --include='*.h' --include='*.cpp' |
         sed -E 's/:#include [<"]/:/; s/[>"]$//'
 }
-rank() {
-    local i
-    for i in "${!folders[@]}"; do
-        [[ ${folders[i]} == "$1" ]] && echo "$i" && return
-    done
-}
+declare -A rank=()
+for i in "${!folders[@]}"; do rank[${folders[i]}]=$i; done
 
 core=libs/hgmm
 while IFS=: read -r file header; do
@@ -39,7 +35,7 @@ while IFS=: read -r file header; do
 done < <(includes $core/include)
 
 for path in $core/src/*; do
-    [[ -d $path && -n $(rank "${path##*/}") ]] ||
+    [[ -d $path && -n ${rank[${path##*/}]-} ]] ||
         complain "$path: no folder of the pipeline (scripts/check-includes.sh lists them)"
 done
 while IFS=: read -r file header; do
@@ -52,7 +48,7 @@ while IFS=: read -r file header; do
         *.h)
             if [[ ! -f $core/src/$header ]]; then
                 complain "$file: no header $header in the core"
-            elif (($(rank "$to") < $(rank "$from"))); then
+            elif ((${rank[$to]:--1} < ${rank[$from]:--1})); then
                 complain "$file: $from/ includes $header, from above it"
             fi ;;
     esac
