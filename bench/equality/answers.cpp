@@ -55,12 +55,9 @@ void addGradients(Dump& dump, const std::string& of, const hgmm::Map& map,
 
 void addDensities(Dump& dump, const std::string& of, const hgmm::Map& map,
                   const Questions& questions) {
-    // Of a copy, for its last bits depended on the order of the map's changes in d48da0d,
-    // unlike those of a map that was copied or loaded.
-    const hgmm::Map copy = map;
     std::vector<double> values;
     for (const auto& point_map : questions.points_map)
-        values.push_back(copy.logDensity(point_map));
+        values.push_back(map.logDensity(point_map));
     dump.add(of + "log density", Kind::answers, "point", {"log density"}, values);
 }
 
@@ -155,11 +152,14 @@ void addAnswers(Dump& dump, const std::string& of, const hgmm::Map& map,
                 const Questions& questions) {
     addOccupancy(dump, of, map, questions);
     addGradients(dump, of, map, questions);
-    addDensities(dump, of, map, questions);
+    // Of a copy: in d48da0d the last bits of these sums depended on the order in which the
+    // map had changed, unlike those of a map that was copied or loaded.
+    const hgmm::Map copy = map;
+    addDensities(dump, of, copy, questions);
     addHits(dump, of + "rays, level 0", map, questions, false, 0);
     addHits(dump, of + "rays to unknown space, level 0", map, questions, true, 0);
     addHits(dump, of + "rays, top level", map, questions, false, map.levelCount() - 1);
-    addModalities(dump, of, map, questions);
+    addModalities(dump, of, copy, questions);
 }
 
 void addSaved(Dump& dump, const hgmm::Map& map, const Questions& questions) {
