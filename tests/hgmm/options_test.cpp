@@ -214,7 +214,8 @@ TEST(Resolution, WholeRangeIsValid) {
     for (const double wrong : {0.0, -1.0, 11.0, std::nan("")}) {
         MapParams params;
         params.setResolution(wrong);
-        EXPECT_EQ(errorOfOptions([&] { params.validate(); }).rfind("resolution_m = ", 0), 0U);
+        EXPECT_EQ(errorOfOptions([&] { params.validate(); }).rfind("resolution_m = ", 0),
+                  0U);
     }
 }
 
