@@ -1,11 +1,17 @@
 # Compiler settings that every target of this project shares.
 
 # Applies language level, warnings and sanitizers to one target.
-# hgmm_target(TARGET [SANITIZERS names])    default: address,undefined
+# hgmm_target(TARGET [SANITIZERS names])    default: all of HGMM_SANITIZE
 function(hgmm_target TARGET)
     cmake_parse_arguments(ARG "" "SANITIZERS" "" ${ARGN})
+    if(HGMM_SANITIZE STREQUAL "thread")
+        set(ARG_SANITIZERS thread)
+        set(ALL_SANITIZERS thread)
+    else()
+        set(ALL_SANITIZERS address,undefined)
+    endif()
     if(NOT ARG_SANITIZERS)
-        set(ARG_SANITIZERS address,undefined)
+        set(ARG_SANITIZERS ${ALL_SANITIZERS})
     endif()
     target_compile_features(${TARGET} PUBLIC cxx_std_17)
     target_compile_options(${TARGET} PRIVATE
@@ -23,15 +29,24 @@ function(hgmm_target TARGET)
             # Two fifths of the time to compile; null pointers and accesses outside of
             # objects are the address sanitizer's, too.
             -fno-sanitize=null,object-size,alignment,pointer-overflow)
-        target_link_options(${TARGET} PUBLIC -fsanitize=address,undefined)
+        target_link_options(${TARGET} PUBLIC -fsanitize=${ALL_SANITIZERS})
     endif()
 endfunction()
 
-# Precompiles the headers of others that most files of a target include: half of its build time.
+# Precompiles the headers of others that most files of a target include: half of its build time,
+# but for unity builds, whose few files parse them in the time that they take to precompile.
 # hgmm_precompile(TARGET <header> ...)
 # hgmm_precompile(TARGET REUSE_FROM other)    those of a target that is compiled alike
 function(hgmm_precompile TARGET)
     cmake_parse_arguments(ARG "" "REUSE_FROM" "" ${ARGN})
+    if(CMAKE_UNITY_BUILD OR CMAKE_DISABLE_PRECOMPILE_HEADERS)
+        return()
+    endif()
+    if(HGMM_CCACHE_PROGRAM)  # needs headers that are the same bytes each time
+        target_compile_options(${TARGET} PRIVATE
+            $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
+            $<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>)
+    endif()
     if(ARG_REUSE_FROM)
         target_precompile_headers(${TARGET} REUSE_FROM ${ARG_REUSE_FROM})
         return()
@@ -51,13 +66,17 @@ function(hgmm_library_includes TARGET)
     install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endfunction()
 
-# A GoogleTest program, each of its cases a ctest case; or shares of its cases that run in
-# one process each, for instrumented programs take longer to load than to run most cases.
+# A GoogleTest program. Its cases run in shares of one process each: a process loads MRPT's
+# libraries for .4 s, longer than most cases take.
 # hgmm_test(NAME SOURCES a.cpp ... LIBRARIES lib ... [LABELS ...]
+#     [SLOW Suite.Case ...] [RECORDINGS Suite.Case ...]
 #     [PRECOMPILE <header> ... | REUSE_PRECOMPILED other_test] [HAS_ORACLES])
+# SLOW: patterns of GoogleTest; what they match runs as NAME.slow, with the label slow.
+# RECORDINGS: what they match needs HGMM_DATA_DIR, and is reported as skipped without.
 # HAS_ORACLES: the tests themselves compute much, and are optimised in sanitized builds, too.
 function(hgmm_test NAME)
-    cmake_parse_arguments(ARG "HAS_ORACLES" "REUSE_PRECOMPILED" "SOURCES;LIBRARIES;LABELS;PRECOMPILE" ${ARGN})
+    cmake_parse_arguments(ARG "HAS_ORACLES" "REUSE_PRECOMPILED"
+        "SOURCES;LIBRARIES;LABELS;PRECOMPILE;SLOW;RECORDINGS" ${ARGN})
     add_executable(${NAME} ${ARG_SOURCES})
     # What tests call is what must be defined; checks in the tests themselves, most of whose
     # code is GoogleTest's and Eigen's, would double the time that they take to compile.
@@ -83,11 +102,26 @@ function(hgmm_test NAME)
             PROPERTIES LABELS "${ARG_LABELS}" SKIP_REGULAR_EXPRESSION "SKIPPED")
         return()
     endif()
-    math(EXPR LAST "${HGMM_TEST_PROCESSES} - 1")
+    list(JOIN ARG_SLOW ":" SLOW)
+    list(JOIN ARG_RECORDINGS ":" RECORDINGS)
+    hgmm_test_shares(${NAME} ${NAME} "-${SLOW}:${RECORDINGS}" ${HGMM_TEST_PROCESSES} "${ARG_LABELS}")
+    if(SLOW)
+        hgmm_test_shares(${NAME}.slow ${NAME} "${SLOW}" 2 "${ARG_LABELS};slow")
+    endif()
+    if(RECORDINGS)
+        hgmm_test_shares(${NAME}.recordings ${NAME} "${RECORDINGS}" 1 "${ARG_LABELS};recordings"
+            sh -c "test -n \"$HGMM_DATA_DIR\" || exit 77; exec \"$0\" \"$@\"")
+    endif()
+endfunction()
+
+# hgmm_test_shares(NAME PROGRAM FILTER COUNT LABELS [command...]): cases that a filter of
+# GoogleTest lets through, in COUNT processes, started by the command if there is one.
+function(hgmm_test_shares NAME PROGRAM FILTER COUNT LABELS)
+    math(EXPR LAST "${COUNT} - 1")
     foreach(SHARE RANGE ${LAST})
-        add_test(NAME ${NAME}.${SHARE} COMMAND ${NAME})
-        set_tests_properties(${NAME}.${SHARE} PROPERTIES LABELS "${ARG_LABELS}"
-            ENVIRONMENT
-            "GTEST_TOTAL_SHARDS=${HGMM_TEST_PROCESSES};GTEST_SHARD_INDEX=${SHARE}")
+        add_test(NAME ${NAME}.${SHARE}
+            COMMAND ${ARGN} $<TARGET_FILE:${PROGRAM}> --gtest_filter=${FILTER} --gtest_brief=1)
+        set_tests_properties(${NAME}.${SHARE} PROPERTIES LABELS "${LABELS}" SKIP_RETURN_CODE 77
+            ENVIRONMENT "GTEST_TOTAL_SHARDS=${COUNT};GTEST_SHARD_INDEX=${SHARE}")
     endforeach()
 endfunction()

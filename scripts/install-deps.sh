@@ -2,12 +2,12 @@
 # Installs everything that building, testing and the demo need, from Debian's own packages.
 # Works as root and, with sudo, as a user. Does nothing where all is there already.
 #   scripts/install-deps.sh         for the release build
-#   scripts/install-deps.sh asan    for the sanitized build, too
+#   scripts/install-deps.sh asan    for the sanitized builds, too (asan, tsan)
 set -euo pipefail
 
 packages=(
     # build
-    g++ cmake ninja-build
+    g++ cmake ninja-build ccache
     libmrpt-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libnanoflann-dev liboctomap-dev
     libpng-dev zlib1g-dev
     # tests
@@ -15,7 +15,7 @@ packages=(
     # stock MRPT apps and their data, used by the tests and the demo
     mrpt-apps mrpt-common
 )
-if [[ ${1:-} == asan ]]; then
+if [[ ${1:-} == asan || ${1:-} == tsan ]]; then
     # Sanitized, GCC takes longer to compile the code, and the code to run.
     packages+=(clang libclang-rt-dev libomp-dev)
 fi

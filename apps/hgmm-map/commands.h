@@ -73,4 +73,12 @@ struct ExportOptions {
 /// `hgmm-map export`: one level in another program's format, in the map frame.
 void exportMap(const ExportOptions& options);
 
+struct OptionsOptions {
+    bool all = false;       ///< advanced options, too
+    bool markdown = false;  ///< all, as docs/options.md
+};
+
+/// `hgmm-map options`: prints the options of maps with default, range, unit and meaning.
+void printOptions(const OptionsOptions& options);
+
 }  // namespace maptool

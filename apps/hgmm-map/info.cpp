@@ -65,8 +65,8 @@ void info(const std::string& mapFile) {
         printModalities(map);
     }
     std::printf("options\n");
-    hgmm::forEachField(map.params(), [](const char* name, auto value) {
-        std::printf("  %-16s %g\n", name, static_cast<double>(value));
+    hgmm::forEachNumber(map.params(), [](const hgmm::OptionRow& row, auto value) {
+        std::printf("  %-16s %g\n", row.name, static_cast<double>(value));
     });
 }
 

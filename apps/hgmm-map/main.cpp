@@ -81,6 +81,17 @@ CLI::App* defineMerge(CLI::App& app, maptool::MergeOptions& merging) {
     return merge;
 }
 
+CLI::App* defineOptions(CLI::App& app, maptool::OptionsOptions& listing) {
+    CLI::App* options = app.add_subcommand(
+        "options", "Print the options that a configuration can set, with their defaults");
+    CLI::Option* all = options->add_flag("--all", listing.all, "Not only the basic ones");
+    options
+        ->add_flag("--markdown", listing.markdown,
+                   "All, as the page docs/options.md has them")
+        ->excludes(all);
+    return options;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -103,6 +114,9 @@ int main(int argc, char** argv) {
     maptool::ExportOptions exporting;
     const CLI::App* exports = maptool::defineExport(app, exporting);
 
+    maptool::OptionsOptions listing;
+    const CLI::App* options = defineOptions(app, listing);
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -115,6 +129,7 @@ int main(int argc, char** argv) {
         if (*raycast) maptool::raycast(casting);
         if (*merge) maptool::merge(merging);
         if (*exports) maptool::exportMap(exporting);
+        if (*options) maptool::printOptions(listing);
     } catch (const std::exception& e) {
         std::fprintf(stderr, "hgmm-map: %s\n", e.what());
         return kBadInput;

@@ -10,7 +10,7 @@
 #include "options.h"
 #include "replay_scans.h"
 #include "report.h"
-#include "studies.h"
+#include "studies/studies.h"
 #include "table.h"
 #include "threads.h"
 
@@ -94,10 +94,20 @@ void prepareOutputs(const Options& o) {
         throw std::runtime_error(*o.saveMap + ": there is no folder " + folder.string());
 }
 
+/// Says which modalities the map was to have and no scan brought.
+void warnOfAbsentModalities(const hgmm::Map& map) {
+    for (const std::string& name : map.modalities())
+        if (const hgmm::ModalityMap* found = map.modality(name);
+            !found || found->size() == 0)
+            std::fprintf(stderr, "warning: modalities: no scan had a channel %s\n",
+                         name.c_str());
+}
+
 ExitCode makeMapAndReport(Recording& recording, const Options& options) {
     const Replayed replayed = replayScans(recording, makeMap(options.config), options);
     if (replayed.run.scansMapped == 0)
         throw std::runtime_error(options.log + ": no scan was left to build a map from");
+    warnOfAbsentModalities(std::as_const(*replayed.map).model());
     const std::vector<MapFigures> maps = evaluateReplayed(replayed);
     std::fputs(table(replayed.run, maps, summariseTimes(replayed.conversion_ms)).c_str(),
                stdout);

@@ -1,8 +1,11 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hgmm/map.h"

@@ -44,9 +44,11 @@ TEST(ComponentStore, WhoFollowsItsChangesHoldsItsRows) {
             const auto i =
                 static_cast<std::uint32_t>(store.empty() ? 0 : random() % store.size());
             switch (store.empty() ? 0 : random() % 4) {
-                case 0:
-                    EXPECT_EQ(store.add(component(random), {}), store.size() - 1);
+                case 0: {
+                    const std::size_t before = store.size();
+                    EXPECT_EQ(store.add(component(random), {}), before);
                     break;
+                }
                 case 1:
                     store.set(i, component(random), {});
                     break;

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include "hgmm/params.h"
 #include "hgmm/regression.h"
 #include "planted_mixture.h"
 

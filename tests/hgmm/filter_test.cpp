@@ -31,7 +31,7 @@ TEST(Filter, AgreesWithADirectGrouping) {
         const Eigen::Vector3f p(scan.x[i], scan.y[i], scan.z[i]);
         const float range = std::sqrt(p.x() * p.x() + p.y() * p.y() + p.z() * p.z());
         const int octave = std::ilogb(std::max(
-            float(params.minLeaf_m), float(params.leafAtOneMetre_m) * std::sqrt(range)));
+            float(params.minLeaf_m), float(params.resolution_m) * std::sqrt(range)));
         const double edge = std::ldexp(1.0, octave);
         leaves[{octave, std::lround(std::floor(p.x() / edge)),
                 std::lround(std::floor(p.y() / edge)),
@@ -129,12 +129,12 @@ TEST(Filter, DegenerateClustersStayPositiveDefinite) {
 
 TEST(Filter, ParametersOutOfRangeAreNamed) {
     FilterParams params;
-    params.leafAtOneMetre_m = std::numeric_limits<double>::quiet_NaN();
+    params.resolution_m = std::numeric_limits<double>::quiet_NaN();
     try {
         params.validate();
         FAIL() << "accepted NaN";
     } catch (const std::invalid_argument& e) {
-        EXPECT_NE(std::string(e.what()).find("leafAtOneMetre_m"), std::string::npos);
+        EXPECT_NE(std::string(e.what()).find("resolution_m"), std::string::npos);
     }
     params = {};
     params.maxRange_m = params.minRange_m / 2;

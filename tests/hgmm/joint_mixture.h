@@ -1,5 +1,7 @@
 #pragma once
 #include <algorithm>
+#include <cstdint>
+#include <random>
 
 #include "hgmm/em.h"
 #include "planted_mixture.h"

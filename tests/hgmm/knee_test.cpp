@@ -71,7 +71,7 @@ std::size_t estimatedSize(std::size_t planted, std::uint64_t seed) {
     planting.components = planted;
     const Mixture<3> truth = plantMixture<3>(planting, engine);
     const auto points = static_cast<std::size_t>(truth.totalSupport());
-    const Mixture<3> samples = asSamples<3>(samplePoints<3>(truth, points, seed), 0.01);
+    const Mixture<3> samples = asSamples<3>(drawPoints(truth, points, seed), 0.01);
     const Overestimate<3> guess = overestimate(samples, 3 * planted, 8, engine);
     EmParams em;
     em.maxIterations = 15;

@@ -14,7 +14,7 @@ using testing::RoomScanner;
 MapParams editedParams() {
     MapParams params;
     int k = 0;
-    forEachField(params, [&](const char*, auto& member) {
+    forEachNumber(params, [&](const OptionRow&, auto& member) {
         using Member = std::remove_reference_t<decltype(member)>;
         // Integers that are 0 choose between models: they stay.
         member = std::is_same_v<Member, int>
@@ -75,10 +75,10 @@ TEST(MapIo, ParametersSurvive) {
     for (const Encoding encoding : {Encoding::exact, Encoding::compact}) {
         const Map loaded = reloaded(map, encoding);
         std::vector<double> before, after;
-        forEachField(map.params(), [&](auto, const auto& v) { before.push_back(v); });
-        forEachField(loaded.params(), [&](auto, const auto& v) { after.push_back(v); });
+        forEachNumber(map.params(), [&](auto&, const auto& v) { before.push_back(v); });
+        forEachNumber(loaded.params(), [&](auto&, const auto& v) { after.push_back(v); });
         EXPECT_EQ(after, before);
-        EXPECT_NE(loaded.params().filter.leafAtOneMetre_m, FilterParams().leafAtOneMetre_m);
+        EXPECT_NE(loaded.params().filter.resolution_m, FilterParams().resolution_m);
     }
 }
 

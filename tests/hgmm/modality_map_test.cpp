@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 

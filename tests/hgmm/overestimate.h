@@ -1,6 +1,12 @@
 #pragma once
+#include <algorithm>
+#include <cstdint>
 #include <limits>
+#include <random>
+#include <utility>
+#include <vector>
 
+#include "hgmm/em.h"
 #include "planted_mixture.h"
 
 namespace hgmm::test {

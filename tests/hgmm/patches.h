@@ -59,11 +59,13 @@ inline void tile(const Eigen::Vector3d& centre, const Eigen::Vector3d& a,
                  Mixture<3>& mixture) {
     const Eigen::Vector3d ua = a.normalized(), ub = b.normalized();
     for (double x = -a.norm() + edge_m / 2; x < a.norm(); x += edge_m)
-        for (double y = -b.norm() + edge_m / 2; y < b.norm(); y += edge_m)
-            mixture.pushBack(patch(centre +
-                                       (x + edge_m * (unitUniform(random) - 0.5)) * ua +
-                                       (y + edge_m * (unitUniform(random) - 0.5)) * ub,
-                                   ua.cross(ub), edge_m));
+        for (double y = -b.norm() + edge_m / 2; y < b.norm(); y += edge_m) {
+            // Drawn one after the other, so that all compilers see the same scene.
+            const double alongA = x + edge_m * (unitUniform(random) - 0.5);
+            const double alongB = y + edge_m * (unitUniform(random) - 0.5);
+            mixture.pushBack(
+                patch(centre + alongA * ua + alongB * ub, ua.cross(ub), edge_m));
+        }
 }
 
 /// Floor and three pairs of walls of unequal sizes.

@@ -6,9 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "hgmm/em.h"
 #include "hgmm/mixture.h"
-#include "hgmm/sampling.h"
 
 namespace hgmm::test {
 
@@ -38,6 +36,33 @@ typename Gaussian<D>::Matrix randomCovariance(std::mt19937_64& engine, double ma
     for (int a = 1; a < D; ++a)
         sigma[a] = sigma[0] * std::exp(-uniform(engine, 0, std::log(maxRatio)));
     return axes * sigma.cwiseAbs2().asDiagonal() * axes.transpose();
+}
+
+/// n points from a mixture; axis d of point i is at [i * D + d]. For any D, and not by
+/// samplePoints(), which the library has for D = 3.
+template <int D>
+std::vector<float> drawPoints(const Mixture<D>& mixture, std::size_t n,
+                              std::uint64_t seed) {
+    using Matrix = Eigen::Matrix<double, D, D>;
+    using Vector = Eigen::Matrix<double, D, 1>;
+    std::mt19937_64 engine(seed);
+    std::vector<Matrix> roots;
+    for (std::size_t j = 0; j < mixture.size(); ++j)
+        roots.push_back(Eigen::LLT<Matrix>(Matrix(mixture[j].covariance)).matrixL());
+    const double total = mixture.totalSupport();
+    std::vector<float> points;
+    points.reserve(n * D);
+    for (std::size_t i = 0; i < n; ++i) {
+        double left = uniform(engine, 0, total);
+        std::size_t j = 0;
+        while (j + 1 < mixture.size() && (left -= mixture.support[j]) > 0) ++j;
+        Vector z;
+        for (int a = 0; a < D; ++a) z[a] = normal(engine);
+        const Vector x = roots[j] * z;
+        for (int a = 0; a < D; ++a)
+            points.push_back(static_cast<float>(mixture.mean[a][j] + x[a]));
+    }
+    return points;
 }
 
 /// Distance of two means under the mean of the two covariances [sigma].

@@ -115,7 +115,7 @@ TEST(Conditional, EqualsNumericIntegrationIn4D) {
 
 TEST(Conditional, EqualsMonteCarlo) {
     const Mixture<2> mixture = randomMixture<2>(5, 11);
-    const std::vector<float> points = samplePoints(mixture, 4000000, 12);
+    const std::vector<float> points = test::drawPoints(mixture, 4000000, 12);
     const double x = 0.2, halfWidth = 0.01;
     double n = 0, sum = 0, sumSquared = 0, inside = 0;
     for (std::size_t i = 0; i < points.size(); i += 2) {

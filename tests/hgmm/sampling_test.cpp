@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
+#include <stdexcept>
+#include <vector>
 
 #include "planted_mixture.h"
 
@@ -10,8 +13,8 @@ namespace hgmm::test {
 namespace {
 
 /// Moments of draws from one component against its parameters, within 5 standard errors.
-template <int D>
-void expectMoments() {
+TEST(SamplePoints, HaveTheMomentsOfTheirComponent) {
+    constexpr int D = 3;
     std::mt19937_64 engine(D);
     Gaussian<D> g{1, Gaussian<D>::Vector::Constant(3), randomCovariance<D>(engine, 10)};
     Mixture<D> mixture;
@@ -32,29 +35,23 @@ void expectMoments() {
     }
 }
 
-TEST(SamplePoints, HaveTheMomentsOfTheirComponent) {
-    expectMoments<2>();
-    expectMoments<3>();
-    expectMoments<4>();
-}
-
-Mixture<2> twoSpots() {
-    Mixture<2> mixture;
-    mixture.pushBack({1, {0, 0}, 1e-4 * Gaussian<2>::Matrix::Identity()});
-    mixture.pushBack({3, {10, 0}, 1e-4 * Gaussian<2>::Matrix::Identity()});
+Mixture<3> twoSpots() {
+    Mixture<3> mixture;
+    mixture.pushBack({1, {0, 0, 0}, 1e-4 * Gaussian<3>::Matrix::Identity()});
+    mixture.pushBack({3, {10, 0, 0}, 1e-4 * Gaussian<3>::Matrix::Identity()});
     return mixture;
 }
 
 TEST(SamplePoints, FollowTheWeights) {
-    const std::vector<float> x = samplePoints<2>(twoSpots(), 10000, 4);
+    const std::vector<float> x = samplePoints<3>(twoSpots(), 10000, 4);
     int second = 0;
-    for (std::size_t i = 0; i < x.size(); i += 2) second += x[i] > 5;
+    for (std::size_t i = 0; i < x.size(); i += 3) second += x[i] > 5;
     EXPECT_NEAR(second / 10000.0, 0.75, 5 * std::sqrt(0.75 * 0.25 / 10000));
 }
 
 TEST(SamplePoints, AreTheSameForTheSameSeedOnly) {
-    EXPECT_EQ(samplePoints<2>(twoSpots(), 100, 4), samplePoints<2>(twoSpots(), 100, 4));
-    EXPECT_NE(samplePoints<2>(twoSpots(), 100, 4), samplePoints<2>(twoSpots(), 100, 5));
+    EXPECT_EQ(samplePoints<3>(twoSpots(), 100, 4), samplePoints<3>(twoSpots(), 100, 4));
+    EXPECT_NE(samplePoints<3>(twoSpots(), 100, 4), samplePoints<3>(twoSpots(), 100, 5));
 }
 
 TEST(SamplePoints, StayOnAComponentWithoutExtent) {

@@ -66,7 +66,7 @@ TEST(ScanSamples, BadInputIsRefusedAndLosesNothing) {
     EXPECT_EQ(map, before);
 
     MapParams params;
-    params.filter.leafAtOneMetre_m = -1;
+    params.filter.resolution_m = -1;
     EXPECT_THROW(samplesOf(scan, params), std::invalid_argument);
     scan.y.pop_back();
     EXPECT_THROW(samplesOf(scan, {}), std::invalid_argument);

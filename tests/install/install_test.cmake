@@ -1,11 +1,4 @@
-# Each step's failure fails the test.
-function(step)
-    execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE out)
-    if(NOT code EQUAL 0)
-        message(FATAL_ERROR "failed (${code}): ${ARGN}\n${out}")
-    endif()
-    set(STEP_OUTPUT "${out}" PARENT_SCOPE)
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/step.cmake)
 
 file(REMOVE_RECURSE ${WORK_DIR})
 step(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/prefix)

@@ -46,13 +46,45 @@ std::vector<Eigen::Vector3d> pointsOf(const hgmm::Map& map) {
 
 const char* const kColours[] = {"r", "g", "b"};
 
+/// Likelihood and render options of the files.
+void changeAsInFiles(CHGMMOccupancyMap::TLikelihoodOptions& o) {
+    o.kernelWidth_m = 0.2345;
+    o.outlierRatio = 0.123;
+    o.maxPoints = 77;
+    o.independentPoints = 66;
+    o.minRange_m = 0.45;
+    o.maxRange_m = 33.3;
+}
+void changeAsInFiles(CHGMMOccupancyMap::TRenderOptions& o) {
+    o.sigmas = 1.25;
+    o.level = 2;
+    o.maxEllipsoids = 55;
+    o.colour = 1;
+    o.modality = "water content";
+    o.drawEllipsoids = false;
+    o.drawFreeSpace = true;
+    o.drawVoxels = true;
+    o.voxelResolution_m = 0.25;
+    o.minOccupied = 0.625;
+    o.generateOccupiedVoxels = false;
+    o.visibleOccupiedVoxels = false;
+    o.generateFreeVoxels = false;
+    o.visibleFreeVoxels = false;
+    o.generateGridLines = true;
+}
+void changeAsInFiles(CHGMMOccupancyMap& map) {
+    edited::change(map);
+    changeAsInFiles(map.likelihoodOptions);
+    changeAsInFiles(map.renderOptions);
+}
+
 void writeGolden() {
     CHGMMOccupancyMap map;
     map.insertionOptions.params.modalities = {"r", "g", "b"};
     map.insertObservation(*observations::laser(), CPose3D(10, -5, 0.3, 0.2, 0, 0));
     map.insertObservation(*observations::rotating(16, 91), CPose3D(10, -5, 0.3, 0.2, 0, 0));
     map.insertObservation(*coloured_wall::colours(), CPose3D(12, -5, 0.3, 1.2, 0, 0));
-    edited::change(map);
+    changeAsInFiles(map);
     map.saveToFile(kData + "map_v2.hgmm");
 
     const CHGMMOccupancyMap saved = load("map_v2.hgmm");
@@ -115,14 +147,14 @@ TEST(GoldenFile, MapOfVersion0LoadsAndAnswersAsEver) {
     }
 
     CHGMMOccupancyMap wanted;
-    edited::change(wanted.likelihoodOptions);
+    changeAsInFiles(wanted.likelihoodOptions);
     forgetYoungOptions(wanted);
     EXPECT_EQ(edited::values(map.likelihoodOptions),
               edited::values(wanted.likelihoodOptions));
     // Version 0 had four render options; the others keep their defaults.
     auto& render = wanted.renderOptions;
     CHGMMOccupancyMap changed;
-    edited::change(changed.renderOptions);
+    changeAsInFiles(changed.renderOptions);
     render.level = changed.renderOptions.level;
     render.sigmas = changed.renderOptions.sigmas;
     render.maxEllipsoids = changed.renderOptions.maxEllipsoids;
@@ -164,7 +196,7 @@ TEST(GoldenFile, MapOfVersion1LoadsAndAnswersAsEver) {
     CHGMMOccupancyMap wanted;
     // Of the defaults when the file was written; later ones do not change it.
     wanted.insertionOptions.params.occupancy.band.freeShare = 0.5;
-    edited::change(wanted);
+    changeAsInFiles(wanted);
     // Version 1 had no modalities.
     wanted.insertionOptions.params.modalities.clear();
     wanted.insertionOptions.params.modality = hgmm::ModalityParams();
@@ -190,7 +222,7 @@ TEST(GoldenFile, MapOfVersion2LoadsAndAnswersAsEver) {
     EXPECT_GE(reds.size(), 3U);
 
     CHGMMOccupancyMap wanted;
-    edited::change(wanted);
+    changeAsInFiles(wanted);
     forgetYoungOptions(wanted);
     EXPECT_EQ(edited::all(map), edited::all(wanted));
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/maps/CHGMMOccupancyMap.h>
+#include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservationPointCloud.h>

@@ -16,7 +16,7 @@ CHGMMOccupancyMap roomMap() {
     CHGMMOccupancyMap map;
     map.insertObservation(*observations::laser(), CPose3D(0, 0, 0.2, 0, 0, 0));
     map.insertObservation(*observations::laser(), CPose3D(0, 0, 0.2, M_PI, 0, 0));
-    map.likelihoodOptions.softening_m = 0.05;
+    map.likelihoodOptions.kernelWidth_m = 0.05;
     map.likelihoodOptions.independentPoints = hgmm::mrpt_bridge::kMaxPoints;
     return map;
 }
@@ -116,9 +116,9 @@ TEST(Likelihood, FollowsTheMapAndTheOptions) {
     const auto scan = observations::laser();
     const CPose3D shifted(0.2, 0, 0.2, 0, 0, 0);
     const double before = map.computeObservationLikelihood(*scan, shifted);
-    map.likelihoodOptions.softening_m = 0.5;
+    map.likelihoodOptions.kernelWidth_m = 0.5;
     EXPECT_GT(map.computeObservationLikelihood(*scan, shifted), before + 1);
-    map.likelihoodOptions.softening_m = 0.05;
+    map.likelihoodOptions.kernelWidth_m = 0.05;
     EXPECT_DOUBLE_EQ(map.computeObservationLikelihood(*scan, shifted), before);
     map.insertObservation(*scan, shifted);
     EXPECT_GT(map.computeObservationLikelihood(*scan, shifted), before);

@@ -8,8 +8,8 @@
 
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
 #include "laser_room.h"
+#include "observation/shared_samples.h"
 #include "observations.h"
-#include "shared_samples.h"
 
 using mrpt::maps::CHGMMOccupancyMap;
 using mrpt::poses::CPose3D;
@@ -148,7 +148,7 @@ TEST(MapInsertion, ObservationThatChangedIsNotTakenForWhatItWas) {
     EXPECT_EQ(after.model(), fresh.model());
     // The same observation with other options.
     CHGMMOccupancyMap coarse;
-    coarse.insertionOptions.params.filter.leafAtOneMetre_m = 0.2;
+    coarse.insertionOptions.params.filter.resolution_m = 0.2;
     coarse.insertObservation(*scan);
     EXPECT_LT(coarse.model().mixture().size(), fresh.model().mixture().size());
 }

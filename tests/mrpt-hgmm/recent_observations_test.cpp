@@ -1,4 +1,4 @@
-#include "recent_observations.h"
+#include "observation/recent_observations.h"
 
 #include <gtest/gtest.h>
 

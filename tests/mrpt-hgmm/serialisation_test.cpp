@@ -227,7 +227,7 @@ TEST_F(Serialisation, LoadFileGivesTheModelAndTheConfigurationTheOptions) {
         std::ofstream ini(path("maps.ini"));
         ini << "[m]\nhgmmMap_count = 1\n[m_hgmmMap_00_creationOpts]\nload_file = "
                "saved.hgmm\n"
-            << "[m_hgmmMap_00_likelihoodOpts]\nsoftening_m = 0.33\n";
+            << "[m_hgmmMap_00_likelihoodOpts]\nkernelWidth_m = 0.33\n";
     }
     // The name is relative to the configuration file, which is not in the working folder.
     mrpt::maps::TSetOfMetricMapInitializers definitions;
@@ -236,7 +236,7 @@ TEST_F(Serialisation, LoadFileGivesTheModelAndTheConfigurationTheOptions) {
     const auto loaded = maps.mapByClass<CHGMMOccupancyMap>();
     ASSERT_TRUE(loaded);
     EXPECT_EQ(loaded->model(), asFiled(map.model()));
-    EXPECT_EQ(loaded->likelihoodOptions.softening_m, 0.33);
+    EXPECT_EQ(loaded->likelihoodOptions.kernelWidth_m, 0.33);
     EXPECT_EQ(edited::values(loaded->renderOptions),
               edited::values(CHGMMOccupancyMap().renderOptions));
 

@@ -220,16 +220,16 @@ TEST_F(StockApps, MisspeltKeyWarnsAndBadValueFails) {
                                 stock_app::quoted(std::string(observations::datasets()) +
                                                   "localization_demo.simplemap.gz") +
                                 " out";
-    edit("observations2map.ini", "minLeaf_m", "minLeafm");
+    edit("observations2map.ini", "resolution_m", "resolutionm");
     const auto warned = stock_app::run(command, folder);
     EXPECT_EQ(warned.exitCode, 0) << tail(warned.output);
-    EXPECT_NE(warned.output.find("unknown key 'minLeafm'"), std::string::npos);
-    EXPECT_NE(warned.output.find("did you mean 'minLeaf_m'"), std::string::npos);
+    EXPECT_NE(warned.output.find("unknown key 'resolutionm'"), std::string::npos);
+    EXPECT_NE(warned.output.find("did you mean 'resolution_m'"), std::string::npos);
 
-    edit("observations2map.ini", "leafAtOneMetre_m = 0.04", "leafAtOneMetre_m = thick");
+    edit("observations2map.ini", "resolutionm = 0.04", "resolution_m = thick");
     const auto refused = stock_app::run(command, folder);
     EXPECT_NE(refused.exitCode, 0);
-    EXPECT_NE(refused.output.find("leafAtOneMetre_m = 'thick'"), std::string::npos)
+    EXPECT_NE(refused.output.find("resolution_m = 'thick'"), std::string::npos)
         << tail(refused.output);
 }
 

@@ -9,7 +9,7 @@
 #include <set>
 #include <tuple>
 
-#include "hgmm/mrpt_bridge/octomap_voxels.h"
+#include "display/octomap_voxels.h"
 #include "hgmm/mrpt_bridge/voxel_grid.h"
 #include "lit_room.h"
 

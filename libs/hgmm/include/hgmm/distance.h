@@ -7,10 +7,11 @@
 
 namespace hgmm {
 
-/// The 4-tuple component over (X, W) of a surface component with a band (thesis 4.1.3): w
-/// is 0 with probability 1 - freeShare and even in (0, width_m) else, and x = s + w u with
-/// s from the surface. Support counts hits and free points. Conditioning on W = 0, thesis
-/// eq. (4.11) and (4.12), gives back the surface's mean and covariance exactly.
+/// The four-dimensional Gaussian over place and distance, (X, W), of a surface component
+/// with a band (thesis 4.1.3): w is 0 with probability 1 - freeShare and even in (0,
+/// width_m) else, and x = s + w u with s from the surface. Support counts hits and free
+/// points. Conditioning on W = 0, thesis eq. (4.11) and (4.12), gives back the surface's
+/// mean and covariance exactly.
 HGMM_EXPORT Gaussian<4> augmented(const Gaussian<3>& surface, const ViewDirection& view,
                                   double width_m, double freeShare);
 

@@ -1,11 +1,16 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include "hgmm/export.h"
+#include "hgmm/gaussian.h"
 #include "hgmm/mixture.h"
 #include "hgmm/params.h"
 
@@ -27,6 +32,13 @@ struct Neighbourhoods {
     std::vector<std::uint32_t> component;
 };
 
+/// The fast one: a sample sees its neighbourhood only. Cost is linear in the number of
+/// samples. The library has it for D = 2 and 3.
+template <int D>
+HGMM_EXPORT EmResult<D> fitSparse(const Mixture<D>& samples, const Mixture<D>& initial,
+                                  const Neighbourhoods& neighbourhoods,
+                                  const EmParams& params);
+
 /// Reference: every component sees every sample, eq. (3.8)-(3.12), in log space.
 ///
 /// A sample with scatter C enters the E-step by its expected log-likelihood,
@@ -34,24 +46,43 @@ struct Neighbourhoods {
 /// second moment, so that fitting leaf moments equals fitting the points behind them where
 /// these agree on their component.
 template <int D>
-HGMM_EXPORT EmResult<D> fitDense(const Mixture<D>& samples, const Mixture<D>& initial,
-                                 const EmParams& params);
-
-/// Engine: a sample sees its neighbourhood only. Cost is linear in the number of samples.
-template <int D>
-HGMM_EXPORT EmResult<D> fitSparse(const Mixture<D>& samples, const Mixture<D>& initial,
-                                  const Neighbourhoods& neighbourhoods,
-                                  const EmParams& params);
+EmResult<D> fitDense(const Mixture<D>& samples, const Mixture<D>& initial,
+                     const EmParams& params) {
+    if (!initial.empty() &&
+        samples.size() > std::numeric_limits<std::uint32_t>::max() / initial.size())
+        throw std::invalid_argument("fitDense: samples times components exceed 2^32");
+    Neighbourhoods everything;
+    everything.begin.resize(samples.size() + 1);
+    everything.component.resize(samples.size() * initial.size());
+    for (std::size_t i = 0, e = 0; i < samples.size(); ++i) {
+        everything.begin[i] = static_cast<std::uint32_t>(e);
+        for (std::size_t j = 0; j < initial.size(); ++j)
+            everything.component[e++] = static_cast<std::uint32_t>(j);
+    }
+    everything.begin.back() = static_cast<std::uint32_t>(everything.component.size());
+    return fitSparse(samples, initial, everything, params);
+}
 
 /// log p(x | mixture), thesis eq. (3.2), of D numbers [nat], over all components; -infinity
 /// never leaves: far from all components the result is the finite log-density of the
 /// nearest.
 template <int D>
-HGMM_EXPORT double logDensity(const Mixture<D>& mixture, const double* x);
+double logDensity(const Mixture<D>& mixture, const double* x) {
+    if (mixture.empty()) throw std::invalid_argument("logDensity of an empty mixture");
+    const double total = mixture.totalSupport();
+    std::vector<double> terms(mixture.size());
+    for (std::size_t j = 0; j < mixture.size(); ++j)
+        terms[j] =
+            std::log(mixture.weight(j, total)) + WhitenedGaussian<D>(mixture[j]).logPdf(x);
+    const double largest = *std::max_element(terms.begin(), terms.end());
+    double sum = 0;
+    for (const double term : terms) sum += std::exp(term - largest);
+    return largest + std::log(sum);
+}
 
 /// The components within `sigmas` of each point, or the likeliest one where there are none:
-/// what fitSparse asks for where no first guess told. Throws std::invalid_argument for an
-/// empty mixture.
+/// neighbourhoods for fitSparse without a first guess by cells. Throws
+/// std::invalid_argument for an empty mixture.
 /// @param points the coordinates of point i are at [d][i]
 HGMM_EXPORT Neighbourhoods neighbourhoodsOf(const std::array<std::vector<float>, 3>& points,
                                             const Mixture<3>& mixture, double sigmas);

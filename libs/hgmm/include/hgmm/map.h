@@ -96,12 +96,14 @@ class HGMM_EXPORT Map {
     /// date here, where the base changed. The reference holds until the next non-const
     /// call. Throws std::out_of_range for a level that does not exist.
     const Mixture<3>& mixture(std::size_t level = 0) const;
+    /// View directions of a level's components, in its order. As for mixture().
+    const ViewDirections& viewDirections(std::size_t level = 0) const;
     /// Free-space components over (X, W) (thesis 4.2) of a level, in the local frame. As
     /// for mixture().
     const Mixture<4>& freeMixture(std::size_t level = 0) const;
 
-    /// log p(point) under the base level [nat], components farther than
-    /// kReachSigmas left out: -infinity where there are none within. Throws
+    /// log p(point) under the base level [nat]. Of components farther than kReachSigmas
+    /// only those of the point's cells count: -infinity where there are none. Throws
     /// nothing.
     double logDensity(const Eigen::Vector3d& point_map) const;
 
@@ -159,9 +161,6 @@ class HGMM_EXPORT Map {
 
     /// Heap held by the map, index and levels included [bytes].
     std::size_t liveBytes() const;
-
-    /// View directions of a level's components, in its order. As for mixture().
-    const ViewDirections& viewDirections(std::size_t level = 0) const;
 
     /// Same parameters, origin, components and views, bit for bit.
     bool operator==(const Map& o) const;

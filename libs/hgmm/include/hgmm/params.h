@@ -1,37 +1,30 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "hgmm/export.h"
+#include "hgmm/option.h"
 
 namespace hgmm {
-
-/// Throws std::invalid_argument "name = value: must be in [low, high]" unless it is; NaN
-/// never is.
-inline void requireInRange(const char* name, double value, double low, double high) {
-    if (value >= low && value <= high) return;
-    throw std::invalid_argument(std::string(name) + " = " + std::to_string(value) +
-                                ": must be in [" + std::to_string(low) + ", " +
-                                std::to_string(high) + "]");
-}
 
 /// How a scan is reduced to samples, one for each occupied leaf (filterScan). Leaves grow
 /// in octaves with the square root of the range: midway between the spacing of a sensor's
 /// rays, which grows with the range, and the detail that a map is wanted for, which does
 /// not.
 struct FilterParams {
-    double leafAtOneMetre_m = 0.04;  ///< leaf edge at range 1 m [m], > 0
-    double minLeaf_m = 0.01;         ///< smallest leaf edge [m], > 0
-    double minRange_m = 0.1;         ///< nearer points are dropped [m], >= 0
-    double maxRange_m = 300.0;       ///< farther points are dropped [m], > minRange_m
-    double noiseStd_m = 0.003;       ///< range noise at range 0, one sigma [m], > 0
-    double noisePerRange = 0.001;    ///< its growth with range [m/m], >= 0
+    /// Leaf edge at range 1 m [m], > 0. The map's other lengths have a ratio to it
+    /// (MapParams::setResolution); assigning this field changes none of them.
+    double resolution_m = 0.04;
+    double minLeaf_m = 0.01;       ///< smallest leaf edge [m], > 0
+    double minRange_m = 0.1;       ///< nearer points are dropped [m], >= 0
+    double maxRange_m = 300.0;     ///< farther points are dropped [m], >= minRange_m
+    double noiseStd_m = 0.003;     ///< range noise at range 0, one sigma [m], > 0
+    double noisePerRange = 0.001;  ///< its growth with range [m/m], >= 0
 
     /// Throws std::invalid_argument naming the field.
     HGMM_EXPORT void validate() const;
+    HGMM_EXPORT static const OptionTable<FilterParams>& options();
 
     /// Standard deviation [m] of a measurement at `range_m`.
     double noiseAt(double range_m) const { return noiseStd_m + noisePerRange * range_m; }
@@ -47,7 +40,7 @@ struct FilterParams {
 /// scan. In the thesis the low density of wide components prevents that; here a component
 /// explains only samples at which it is thin beside the cells of a first guess.
 struct NoveltyParams {
-    double maxMahalanobis = 3.0;  ///< [sigma], in (0, 4]
+    double maxMahalanobis = 3.0;  ///< [sigma], in [0.1, 4]
     /// Standard deviation across the surface that a ray meets, besides that of the noise
     /// [cell edges at the ray's range, CellParams::edgeAt], in [0.001, 1000]. The default,
     /// 1 / sqrt(12), is that of hits all over a cell.
@@ -55,6 +48,7 @@ struct NoveltyParams {
 
     /// Throws std::invalid_argument naming the field.
     HGMM_EXPORT void validate() const;
+    HGMM_EXPORT static const OptionTable<NoveltyParams>& options();
 };
 
 /// The first guess of a mixture: moments of the samples in each cell of a voxel grid,
@@ -72,6 +66,7 @@ struct CellParams {
 
     /// Throws std::invalid_argument naming the field.
     HGMM_EXPORT void validate() const;
+    HGMM_EXPORT static const OptionTable<CellParams>& options();
 };
 
 /// Expectation-Maximization, thesis 3.1.2.
@@ -82,6 +77,7 @@ struct EmParams {
 
     /// Throws std::invalid_argument naming the field.
     HGMM_EXPORT void validate() const;
+    HGMM_EXPORT static const OptionTable<EmParams>& options();
 };
 
 /// Algorithm 1 of the thesis (3.3.2).
@@ -99,6 +95,7 @@ struct HierarchyParams {
 
     /// Throws std::invalid_argument naming the field.
     HGMM_EXPORT void validate() const;
+    HGMM_EXPORT static const OptionTable<HierarchyParams>& options();
 };
 
 /// How the distance variable W is distributed in front of a surface component (thesis 4.1):
@@ -117,6 +114,7 @@ struct FreeSpaceBandParams {
 
     /// Throws std::invalid_argument naming the field.
     HGMM_EXPORT void validate() const;
+    HGMM_EXPORT static const OptionTable<FreeSpaceBandParams>& options();
 
     /// [m]
     double width(double range_m) const { return bandBase_m + bandPerRange * range_m; }
@@ -132,8 +130,8 @@ struct FreeSpaceBandParams {
 
 /// The free space that rays passed (thesis 4.2), as a mixture on a lattice.
 struct FreeSpaceParams {
-    /// Edge of the smallest cells where rays end at 1 m [m], > 0; grows with the square
-    /// root of the range, like those of surfaces (CellParams).
+    /// Edge of the smallest cells where rays end at range 1 m [m], > 0; grows with the
+    /// square root of the range, like those of surfaces (CellParams).
     double freeCellAtOneMetre_m = 0.4;
     /// A free component that holds this many times what a scan would add learns no more
     /// [scans], >= 1: so that something new in long-known free space is soon believed.
@@ -141,6 +139,7 @@ struct FreeSpaceParams {
 
     /// Throws std::invalid_argument naming the field.
     HGMM_EXPORT void validate() const;
+    HGMM_EXPORT static const OptionTable<FreeSpaceParams>& options();
 };
 
 /// How a point becomes occupied, free or unknown (thesis 4.3).
@@ -157,6 +156,7 @@ struct OccupancyParams {
 
     /// Throws std::invalid_argument naming the field.
     HGMM_EXPORT void validate() const;
+    HGMM_EXPORT static const OptionTable<OccupancyParams>& options();
 };
 
 /// What becomes of a surface that rays pass through.
@@ -169,11 +169,12 @@ struct CarvingParams {
 
     /// Throws std::invalid_argument naming the field.
     HGMM_EXPORT void validate() const;
+    HGMM_EXPORT static const OptionTable<CarvingParams>& options();
 };
 
 /// How modalities (thesis chapter 5) are learnt.
 struct ModalityParams {
-    /// Leaf edge at range 1 m [m], > 0, growing like FilterParams::leafAtOneMetre_m: finer
+    /// Leaf edge at range 1 m [m], > 0, growing like FilterParams::resolution_m: finer
     /// than that of the surfaces, for texture is finer than shape.
     double modalityLeafAtOneMetre_m = 0.028;
     /// Share of the variance of a modality within a scan that its components need not
@@ -185,6 +186,7 @@ struct ModalityParams {
 
     /// Throws std::invalid_argument naming the field.
     HGMM_EXPORT void validate() const;
+    HGMM_EXPORT static const OptionTable<ModalityParams>& options();
 };
 
 /// A map models at most so many modalities.
@@ -202,48 +204,52 @@ struct MapParams {
     ModalityParams modality;
     /// Names of the channels to model (Scan::channels), at most kMaxModalities; scans may
     /// lack them.
-    std::vector<std::string> modalities;
+    Names modalities;
 
     /// Throws std::invalid_argument naming the field.
     HGMM_EXPORT void validate() const;
+    HGMM_EXPORT static const OptionTable<MapParams>& options();
+    HGMM_EXPORT bool operator==(const MapParams& o) const;
+    bool operator!=(const MapParams& o) const { return !(*this == o); }
+
+    /// Sets resolution_m [m] and gives each length that follows it its default ratio to it,
+    /// within its range; a length that is assigned afterwards has its own value.
+    HGMM_EXPORT void setResolution(double resolution_m);
 };
 
-/// Calls visit(name, member) for every field of `params` (const or not), members being
-/// double or int: the one list of fields for saving, reading configuration files and
-/// printing. Names are unique over all stages and are the keys of configuration files.
+/// Options that maps had once.
+HGMM_EXPORT const std::vector<RetiredOption>& retiredOptions();
+
+/// Calls visit(stage...) for each struct of a stage, in the order of the pipeline, of one
+/// or more MapParams; and last for the MapParams themselves, whose table has their own
+/// fields.
+template <typename Visitor, typename... Params>
+void forEachStage(Visitor&& visit, Params&... params) {
+    visit(params.filter...);
+    visit(params.novelty...);
+    visit(params.cells...);
+    visit(params.em...);
+    visit(params.hierarchy...);
+    visit(params.occupancy.band...);
+    visit(params.occupancy.freeSpace...);
+    visit(params.occupancy...);
+    visit(params.carving...);
+    visit(params.modality...);
+    visit(params...);
+}
+
+/// Calls visit(row, field) for each option. Names are unique over all stages.
 template <typename Params, typename Visitor>
-void forEachField(Params& params, Visitor&& visit) {
-    visit("leafAtOneMetre_m", params.filter.leafAtOneMetre_m);
-    visit("minLeaf_m", params.filter.minLeaf_m);
-    visit("minRange_m", params.filter.minRange_m);
-    visit("maxRange_m", params.filter.maxRange_m);
-    visit("noiseStd_m", params.filter.noiseStd_m);
-    visit("noisePerRange", params.filter.noisePerRange);
-    visit("maxMahalanobis", params.novelty.maxMahalanobis);
-    visit("maxThickness", params.novelty.maxThickness);
-    visit("cellAtOneMetre_m", params.cells.cellAtOneMetre_m);
-    visit("minCell_m", params.cells.minCell_m);
-    visit("minSamples", params.cells.minSamples);
-    visit("maxIterations", params.em.maxIterations);
-    visit("minImprovement", params.em.minImprovement);
-    visit("levels", params.hierarchy.levels);
-    visit("similarityStart", params.hierarchy.similarityStart);
-    visit("similarityStep", params.hierarchy.similarityStep);
-    visit("similarityMax", params.hierarchy.similarityMax);
-    visit("levelRatio", params.hierarchy.levelRatio);
-    visit("freeShare", params.occupancy.band.freeShare);
-    visit("bandBase_m", params.occupancy.band.bandBase_m);
-    visit("bandPerRange", params.occupancy.band.bandPerRange);
-    visit("bandReachPerRange", params.occupancy.band.bandReachPerRange);
-    visit("freeCellAtOneMetre_m", params.occupancy.freeSpace.freeCellAtOneMetre_m);
-    visit("freeSettledScans", params.occupancy.freeSpace.freeSettledScans);
-    visit("knownSigmas", params.occupancy.knownSigmas);
-    visit("extentSigmas", params.occupancy.extentSigmas);
-    visit("contradictedKeep", params.carving.carvedSupport);
-    visit("minSupport", params.carving.minSupport);
-    visit("modalityLeafAtOneMetre_m", params.modality.modalityLeafAtOneMetre_m);
-    visit("modalityUnexplained", params.modality.modalityUnexplained);
-    visit("modalityNoise", params.modality.modalityNoise);
+void forEachOption(Params& params, Visitor&& visit) {
+    forEachStage([&](auto& stage) { forEachRow(stage, visit); }, params);
+}
+
+/// Calls visit(row, field) for each option that is a number, a double or an int.
+template <typename Params, typename Visitor>
+void forEachNumber(Params& params, Visitor&& visit) {
+    forEachOption(params, [&](const OptionRow& row, auto& field) {
+        if constexpr (isNumber<decltype(field)>) visit(row, field);
+    });
 }
 
 }  // namespace hgmm

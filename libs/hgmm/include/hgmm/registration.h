@@ -16,7 +16,7 @@ struct RegistrationParams {
     double coarseWidth_m = 0.5;    ///< error of the guess' position [m], >= fineWidth_m
     double coarseAngle_rad = 0.3;  ///< error of its rotation [rad], >= fineAngle_rad
     double fineWidth_m = 0.03;     ///< about the thickness of mapped surfaces [m], > 0
-    double fineAngle_rad = 0.003;  ///< its growth with distance [rad], > 0
+    double fineAngle_rad = 0.003;  ///< added to it times the distance [rad], > 0
     int maxStageIterations = 20;   ///< of each stage [count], >= 1
     double minOverlap = 0.1;  ///< share of the source that must be found [1], in [0, 1]
 

@@ -1,6 +1,10 @@
 #pragma once
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include "hgmm/export.h"
@@ -13,7 +17,8 @@ namespace hgmm {
 /// first D - 1 axes, W is the last.
 ///
 /// A covariance that is not positive definite is treated as WhitenedGaussian does: pivots
-/// below 1e-12 are raised, so that all results stay finite.
+/// below 1e-12 are raised, so that all results stay finite. The library has it for D = 2
+/// and 4.
 template <int D>
 class RegressedGaussian {
  public:
@@ -104,6 +109,42 @@ class ConditionalMixture {
     std::vector<RegressedGaussian<D>> components_;
 };
 
+template <int D>
+ConditionalMixture<D>::ConditionalMixture(const Mixture<D>& joint) {
+    if (joint.empty())
+        throw std::invalid_argument("ConditionalMixture of an empty mixture");
+    const double total = joint.totalSupport();
+    components_.reserve(joint.size());
+    for (std::size_t j = 0; j < joint.size(); ++j)
+        components_.emplace_back(joint[j], joint.weight(j, total));
+}
+
+template <int D>
+Conditional ConditionalMixture<D>::at(const double* x) const {
+    Conditional out;
+    at(x, out);
+    return out;
+}
+
+template <int D>
+void ConditionalMixture<D>::at(const double* x, Conditional& out) const {
+    for (int a = 0; a < D - 1; ++a)
+        if (!(std::abs(x[a]) <= 1e100))
+            throw std::invalid_argument(
+                "ConditionalMixture::at: a coordinate is not finite or beyond 1e100");
+    out.terms_.resize(components_.size());
+    double largest = -std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < components_.size(); ++j) {
+        const RegressedGaussian<D>& c = components_[j];
+        out.terms_[j] = {c.logWeightedDensity(x), c.mean(x), c.variance()};
+        largest = std::max(largest, out.terms_[j].weight);
+    }
+    double sum = 0;
+    for (Conditional::Term& t : out.terms_) sum += t.weight = std::exp(t.weight - largest);
+    for (Conditional::Term& t : out.terms_) t.weight /= sum;
+    out.logMarginal_ = largest + std::log(sum);
+}
+
 /// The model of place alone where W = 0, thesis eq. (4.10) to (4.13): the surface within a
 /// mixture over place and distance.
 ///
@@ -115,7 +156,5 @@ HGMM_EXPORT Mixture<D - 1> spatialModel(const Mixture<D>& joint);
 
 extern template class HGMM_EXPORT RegressedGaussian<2>;
 extern template class HGMM_EXPORT RegressedGaussian<4>;
-extern template class HGMM_EXPORT ConditionalMixture<2>;
-extern template class HGMM_EXPORT ConditionalMixture<4>;
 
 }  // namespace hgmm

@@ -18,7 +18,7 @@ class Lazy {
         ready_.store(value_.get(), std::memory_order_release);
         return *value_;
     }
-    /// What is there; null before get(). For writers, who are alone.
+    /// What is there; null before get(). Not for concurrent use.
     T* value() { return value_.get(); }
     /// The same for readers.
     const T* ready() const { return ready_.load(std::memory_order_acquire); }

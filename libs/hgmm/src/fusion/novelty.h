@@ -24,7 +24,7 @@ struct NoveltySplit {
     std::vector<Oversized> oversized;  ///< samples rising, and components of a sample
 };
 
-/// From where samples were seen, and who saw what the map holds.
+/// From where the samples were measured, and from where the map's components were.
 struct SensorGeometry {
     const ViewDirections& views;  ///< of the indexed components
     ThicknessLimit limit;         ///< of what explains the samples

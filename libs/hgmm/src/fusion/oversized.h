@@ -47,10 +47,11 @@ struct SupportDecay {
 /// Supports at or below this are none [count]: downweighting leaves at least so much.
 constexpr float kNoSupport = 1e-6F;
 
-/// Oversized components lose support to those that learn in their place: of each sample
-/// that they are too thick for, what they would be given, had they a part in it. That is
-/// its responsibility (3.8), over them and those that explain the sample, times its
-/// support. Returns those that lose, rising.
+/// What is left of oversized components when those that learn in their place take over. An
+/// oversized component loses, for each sample that it is too thick for, the support that
+/// the sample would have given it: the sample's support times the component's
+/// responsibility (3.8) among the oversized ones and those that explain the sample. Returns
+/// the components that lose, rising.
 /// @param index of the mixture's components before the samples changed them
 std::vector<SupportDecay> downweightOversized(const Mixture<3>& mixture,
                                               const ComponentIndex& index,

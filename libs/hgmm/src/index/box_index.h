@@ -42,8 +42,8 @@ class BoxIndex {
     /// The same for a body inside its box: enters it in the cells that it touches.
     /// @param touches touches(centre, halfEdge) tells it of a cube, const float* and float
     /// [m]; it may err for cubes that are only nearly touched
-    /// @param touched what `touches` said of the body that box i held before; nobody asks
-    /// where i is the next one
+    /// @param touched the same test of the body that box i held before; not called for a
+    /// new box
     template <typename Touches, typename Touched>
     void update(std::uint32_t i, const Box& box, Touches&& touches, Touched&& touched);
     /// Drops boxes n, n + 1, ...

@@ -4,6 +4,7 @@
 
 #include "hgmm/gaussian.h"
 #include "hgmm/mixture.h"
+#include "hgmm/occupancy.h"
 #include "index/box_index.h"
 
 namespace hgmm {
@@ -21,9 +22,9 @@ class ComponentIndex {
     explicit ComponentIndex(float sigmas = kSigmas, float inflationStd_m = 0.F)
         : sigmas_(sigmas), inflationVariance_(inflationStd_m * inflationStd_m) {}
 
-    static constexpr float kSigmas = 4.F;
+    static constexpr float kSigmas = static_cast<float>(kReachSigmas);
 
-    /// Enters every component of a mixture, which must outlive no call: data is copied.
+    /// Enters every component of a mixture; data is copied.
     void rebuild(const Mixture<3>& mixture);
     /// Enters or re-enters component i, which must be < size() or the next one.
     void update(const Mixture<3>& mixture, std::uint32_t i);

@@ -18,6 +18,7 @@ struct Changes {
 
 /// The one owner of everything that has one row for each surface component: its Gaussian
 /// and its view direction. It alone adds, alters and removes rows, and notes what it did.
+/// Insert and merge pass takeChanges() to QueryCache::apply, which updates all indices.
 class ComponentStore {
  public:
     ComponentStore() = default;

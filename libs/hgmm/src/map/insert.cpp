@@ -73,7 +73,7 @@ std::vector<RayBundle> addComponents(ComponentStore& store, const Mixture<3>& no
 /// Removes those of `weakened` that are left with too little support. Returns how many.
 std::size_t removeWeak(ComponentStore& store, std::vector<std::uint32_t> weakened,
                        double minSupport) {
-    // From the last on, so that the one that takes a removed one's place stays.
+    // Falling, for remove() puts the last row into the place of the removed one.
     std::sort(weakened.rbegin(), weakened.rend());
     weakened.erase(std::unique(weakened.begin(), weakened.end()), weakened.end());
     std::size_t removed = 0;

@@ -58,13 +58,7 @@ std::size_t Map::liveBytes() const {
 }
 
 bool Model::operator==(const Model& o) const {
-    bool sameParams = params.modalities == o.params.modalities;
-    std::vector<double> mine;
-    forEachField(params, [&](const char*, const auto& v) { mine.push_back(double(v)); });
-    std::size_t k = 0;
-    forEachField(o.params,
-                 [&](const char*, const auto& v) { sameParams &= mine[k++] == double(v); });
-    return sameParams && origin == o.origin && components == o.components &&
+    return params == o.params && origin == o.origin && components == o.components &&
            freeSpace == o.freeSpace && modalities == o.modalities;
 }
 

@@ -4,7 +4,7 @@
 
 #include "hgmm/map.h"
 #include "map/model.h"
-#include "modality/modality_inference.h"
+#include "modality/cross_modal.h"
 
 namespace hgmm {
 

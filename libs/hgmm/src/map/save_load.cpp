@@ -37,9 +37,10 @@ namespace {
 constexpr char kMagic[4] = {'H', 'G', 'M', 'M'};
 constexpr std::uint32_t kVersion = 3, kWithoutModalities = 2;
 constexpr std::size_t kHeader = 24;
-constexpr char kThesisFreeSpace[] =
-    "saved map: freeSpaceModel = 1, the thesis' own free space, is no part of the map any "
-    "more; hgmm-replay --study free-space shows it";
+
+[[noreturn]] void refuse(const RetiredOption& option) {
+    throw FormatError(std::string("saved map: ") + option.name + " = 1: " + option.reason);
+}
 
 /// 64-bit checksum, eight bytes at a time: copies inside a particle filter go through here.
 std::uint64_t checksum(const std::uint8_t* data, std::size_t size) {
@@ -61,17 +62,18 @@ std::uint64_t checksum(const std::uint8_t* data, std::size_t size) {
 
 void putParams(Writer& out, const MapParams& params) {
     std::uint32_t fields = 0;
-    forEachField(params, [&](const char*, const auto&) { ++fields; });
+    forEachNumber(params, [&](const OptionRow&, const auto&) { ++fields; });
     out.put(fields);
-    forEachField(params, [&](const char* name, const auto& value) {
-        const auto length = static_cast<std::uint8_t>(std::strlen(name));
+    forEachNumber(params, [&](const OptionRow& row, const auto& value) {
+        const auto length = static_cast<std::uint8_t>(std::strlen(row.name));
         out.put(length);
-        out.put(name, length);
+        out.put(row.name, length);
         out.put(static_cast<double>(value));
     });
 }
 
-/// Fields are found by name: one that a file does not hold keeps its default.
+/// Fields are found by name, also by a former one: one that a file does not hold keeps its
+/// default. Files hold every length, so that none follows resolution_m here.
 MapParams getParams(Reader& in) {
     MapParams params;
     const auto fields = in.get<std::uint32_t>();
@@ -79,10 +81,11 @@ MapParams getParams(Reader& in) {
         std::string name(in.get<std::uint8_t>(), '\0');
         in.get(name.data(), name.size());
         const auto value = in.get<double>();
-        if (name == "freeSpaceModel" && value != 0.0) throw FormatError(kThesisFreeSpace);
-        forEachField(params, [&](const char* known, auto& member) {
+        for (const RetiredOption& retired : retiredOptions())
+            if (name == retired.name && value != 0.0) refuse(retired);
+        forEachNumber(params, [&](const OptionRow& row, auto& member) {
             using Member = std::remove_reference_t<decltype(member)>;
-            if (name != known) return;
+            if (!row.isNamed(name)) return;
             if (!(std::abs(value) < std::numeric_limits<int>::max()))
                 throw FormatError("saved map: parameter " + name + " is out of range");
             member = static_cast<Member>(value);
@@ -152,7 +155,7 @@ void checkViewDirections(const ViewDirections& views) {
 
 /// Free components of the surfaces' own: of a model that maps had before version 0.2.
 void refuseFreeOfSurfaces(const Mixture<4>& freeOfSurfaces) {
-    if (!freeOfSurfaces.empty()) throw FormatError(kThesisFreeSpace);
+    if (!freeOfSurfaces.empty()) refuse(retiredOptions().front());
 }
 
 void putComponents(Writer& out, const Model& model, Encoding encoding) {
@@ -166,6 +169,7 @@ void putComponents(Writer& out, const Model& model, Encoding encoding) {
             encodeSurfaces(surfaces, views, blockOrder(surfaces), b);
         });
         putSection(out, [&](auto& b) { encodeFree(free, octaves, blockOrder(free), b); });
+        // Once the thesis' own free space; the format has its place.
         putSection(out, [&](auto& b) { encodeFree({}, {}, {}, b); });
         return;
     }

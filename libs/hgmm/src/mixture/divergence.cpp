@@ -1,6 +1,7 @@
 #include "hgmm/divergence.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -51,11 +52,6 @@ double klDivergence(const WhitenedGaussian<D>& f,
 }
 
 template <int D>
-double klDivergence(const Gaussian<D>& f, const Gaussian<D>& g) {
-    return klDivergence(WhitenedGaussian<D>(f), f.covariance, WhitenedGaussian<D>(g));
-}
-
-template <int D>
 double klDivergence(const Mixture<D>& p, const Mixture<D>& q) {
     requireComponents(p, q);
     const GoldbergerSearch<D> search(q);  // for the minimum of thesis eq. (3.15)
@@ -85,14 +81,7 @@ template double klDivergence(const WhitenedGaussian<3>&, const Gaussian<3>::Matr
                              const WhitenedGaussian<3>&);
 template double klDivergence(const WhitenedGaussian<4>&, const Gaussian<4>::Matrix&,
                              const WhitenedGaussian<4>&);
-template double klDivergence(const Gaussian<2>&, const Gaussian<2>&);
-template double klDivergence(const Gaussian<3>&, const Gaussian<3>&);
-template double klDivergence(const Gaussian<4>&, const Gaussian<4>&);
-template double klDivergence(const Mixture<2>&, const Mixture<2>&);
 template double klDivergence(const Mixture<3>&, const Mixture<3>&);
-template double klDivergence(const Mixture<4>&, const Mixture<4>&);
-template double cauchySchwarzDivergence(const Mixture<2>&, const Mixture<2>&);
 template double cauchySchwarzDivergence(const Mixture<3>&, const Mixture<3>&);
-template double cauchySchwarzDivergence(const Mixture<4>&, const Mixture<4>&);
 
 }  // namespace hgmm

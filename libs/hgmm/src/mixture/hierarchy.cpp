@@ -118,7 +118,8 @@ Hierarchy<D> generateHierarchy(const Mixture<D>& reference, const HierarchyParam
         }
         const bool mayMerge = smaller || params.similarityStep > 0;
         similarity = raised(similarity, params.similarityStep);
-        return mayMerge && levels.back().size() > 1 && similarity < HierarchyParams::kLargestSimilarity;
+        return mayMerge && levels.back().size() > 1 &&
+               similarity < HierarchyParams::kLargestSimilarity;
     };
     bool more = reference.size() > 1;
     while (more && !kneeIsKnown(out.curve)) more = pass();
@@ -132,17 +133,12 @@ Hierarchy<D> generateHierarchy(const Mixture<D>& reference, const HierarchyParam
     return out;
 }
 
-template Mixture<2> mergePass(const Mixture<2>&, double);
-template Mixture<2> mergeToSize(const Mixture<2>&, std::size_t, const HierarchyParams&,
-                                std::vector<std::uint32_t>*);
 template Mixture<3> mergePass(const Mixture<3>&, double);
 template Mixture<3> mergeToSize(const Mixture<3>&, std::size_t, const HierarchyParams&,
                                 std::vector<std::uint32_t>*);
-template Mixture<4> mergePass(const Mixture<4>&, double);
 template Mixture<4> mergeToSize(const Mixture<4>&, std::size_t, const HierarchyParams&,
                                 std::vector<std::uint32_t>*);
 template Hierarchy<2> generateHierarchy(const Mixture<2>&, const HierarchyParams&);
 template Hierarchy<3> generateHierarchy(const Mixture<3>&, const HierarchyParams&);
-template Hierarchy<4> generateHierarchy(const Mixture<4>&, const HierarchyParams&);
 
 }  // namespace hgmm

@@ -16,7 +16,7 @@ std::size_t smallestWithoutLoss(const std::vector<DivergencePoint>& curve) {
     return best;
 }
 
-/// Double2 joined lines of divergence over size: y = level + slope x + bend max(x, 0),
+/// Two joined lines of divergence over size: y = level + slope x + bend max(x, 0),
 /// where x is the number of components taken away since the joint.
 struct BrokenLine {
     double bend = 0;          ///< change of slope at the joint [nat per component]

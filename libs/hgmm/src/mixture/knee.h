@@ -16,7 +16,7 @@ bool isFidelityCandidate(const DivergencePoint& point, const DivergencePoint& re
 /// divergence has not begun to climb: the fidelity threshold of thesis 3.3.2.
 ///
 /// Method: two-phase regression, after D. J. Hudson, "Fitting segmented curves whose join
-/// points have to be estimated", J. Am. Stat. Assoc. 61 (1966). Double2 joined straight
+/// points have to be estimated", J. Am. Stat. Assoc. 61 (1966). Two joined straight
 /// lines of divergence over size are fitted by least squares to the points that
 /// isFidelityCandidate() admits, with the joint at each inner point in turn; the knee is
 /// the joint of least error.

@@ -13,7 +13,6 @@ namespace hgmm {
 namespace {
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();
-constexpr double kLargestCoordinate = 1e100;
 constexpr double kSmallestWeight = 1e-12;
 constexpr double kSmallestVariance = 1e-12;
 
@@ -99,42 +98,6 @@ double Conditional::mass(double low, double high) const {
 }
 
 template <int D>
-ConditionalMixture<D>::ConditionalMixture(const Mixture<D>& joint) {
-    if (joint.empty())
-        throw std::invalid_argument("ConditionalMixture of an empty mixture");
-    const double total = joint.totalSupport();
-    components_.reserve(joint.size());
-    for (std::size_t j = 0; j < joint.size(); ++j)
-        components_.emplace_back(joint[j], joint.weight(j, total));
-}
-
-template <int D>
-Conditional ConditionalMixture<D>::at(const double* x) const {
-    Conditional out;
-    at(x, out);
-    return out;
-}
-
-template <int D>
-void ConditionalMixture<D>::at(const double* x, Conditional& out) const {
-    for (int a = 0; a < D - 1; ++a)
-        if (!(std::abs(x[a]) <= kLargestCoordinate))
-            throw std::invalid_argument(
-                "ConditionalMixture::at: a coordinate is not finite or beyond 1e100");
-    out.terms_.resize(components_.size());
-    double largest = kNever;
-    for (std::size_t j = 0; j < components_.size(); ++j) {
-        const RegressedGaussian<D>& c = components_[j];
-        out.terms_[j] = {c.logWeightedDensity(x), c.mean(x), c.variance()};
-        largest = std::max(largest, out.terms_[j].weight);
-    }
-    double sum = 0;
-    for (Conditional::Term& t : out.terms_) sum += t.weight = std::exp(t.weight - largest);
-    for (Conditional::Term& t : out.terms_) t.weight /= sum;
-    out.logMarginal_ = largest + std::log(sum);
-}
-
-template <int D>
 Mixture<D - 1> spatialModel(const Mixture<D>& joint) {
     Mixture<D - 1> out;
     if (joint.empty()) return out;
@@ -159,8 +122,6 @@ Mixture<D - 1> spatialModel(const Mixture<D>& joint) {
 
 template class RegressedGaussian<2>;
 template class RegressedGaussian<4>;
-template class ConditionalMixture<2>;
-template class ConditionalMixture<4>;
 template Mixture<3> spatialModel(const Mixture<4>&);
 
 }  // namespace hgmm

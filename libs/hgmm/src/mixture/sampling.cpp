@@ -76,8 +76,6 @@ std::vector<float> samplePoints(const Mixture<D>& mixture, std::size_t n,
     return points;
 }
 
-template std::vector<float> samplePoints(const Mixture<2>&, std::size_t, std::uint64_t);
 template std::vector<float> samplePoints(const Mixture<3>&, std::size_t, std::uint64_t);
-template std::vector<float> samplePoints(const Mixture<4>&, std::size_t, std::uint64_t);
 
 }  // namespace hgmm

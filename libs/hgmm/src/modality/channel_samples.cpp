@@ -164,8 +164,8 @@ void ChannelSamples::pushBack(const double* sums, const std::array<float, 3>& an
 ChannelSamples filterChannels(const Scan& scan, const std::vector<const Channel*>& channels,
                               const FilterParams& filter, const ModalityParams& params) {
     FilterParams finer = filter;
-    finer.minLeaf_m *= params.modalityLeafAtOneMetre_m / filter.leafAtOneMetre_m;
-    finer.leafAtOneMetre_m = params.modalityLeafAtOneMetre_m;
+    finer.minLeaf_m *= params.modalityLeafAtOneMetre_m / filter.resolution_m;
+    finer.resolution_m = params.modalityLeafAtOneMetre_m;
     switch (channels.size()) {
         case 1:
             return filterUpTo<1>(scan, channels, finer, params.modalityNoise);

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "hgmm/map.h"
-#include "modality/modality_inference.h"
+#include "modality/cross_modal.h"
 #include "modality/top_k.h"
 #include "modality/value_index.h"
 

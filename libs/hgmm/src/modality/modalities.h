@@ -7,8 +7,8 @@
 
 namespace hgmm {
 
-/// All modalities of a map. Those of which every scan had all or none at each of its points
-/// form a group; a scan that has only some of them takes the group apart.
+/// All modalities of a map. Those that were always measured at the same points, as the
+/// colours of a camera are, form a group. A scan with only some of them splits the group.
 class Modalities {
  public:
     Modalities() = default;

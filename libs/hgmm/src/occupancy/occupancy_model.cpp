@@ -147,8 +147,8 @@ void OccupancyModel::addBand(const Band& band, const T* x, Sums<T>& sums) const 
     const T occupied = double(band.peak) * column * hit;
     const T free = double(band.peak) * column * mass *
                    (tau * kSqrtTwoPi * double(band.freePerMetre)) * fall;
-    sums.occupied += occupied;  // thesis eq. (4.15)
-    sums.free += free;          // thesis eq. (4.16)
+    sums.occupied += occupied;
+    sums.free += free;
     const T outside = valueOf(t) < 0 ? t : valueOf(t) > reach ? t - reach : T(0.0);
     sums.known +=
         tapered(exp(-0.5 * (sharpness_ * beside + precision * outside * outside)));
@@ -210,6 +210,7 @@ Occupancy OccupancyModel::at(const Eigen::Vector3d& point) const {
     const double total = s.occupied + s.free;
     if (!(total > 1e-300)) return answer;
     const double seen = s.known / (s.known + unknownDensity_) / total;
+    // thesis eq. (4.15), (4.16)
     answer.occupied = static_cast<float>(std::clamp(s.occupied * seen, 0.0, 1.0));
     answer.free = std::min(static_cast<float>(std::clamp(s.free * seen, 0.0, 1.0)),
                            1.F - answer.occupied);

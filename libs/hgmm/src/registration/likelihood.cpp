@@ -19,7 +19,8 @@ constexpr double kMinVariance_m2 = 1e-12;
 /// The tail ends where it would add so much of the outlier ratio.
 constexpr double kTailEnd = 0.5;
 
-/// But no farther away than so many widths: small ratios would let all patches have a say.
+/// It ends at this many widths at the latest: with a small outlier ratio it would reach
+/// every patch.
 constexpr double kFarthest = 20;
 
 double reachOf(double outlierRatio) {
@@ -40,8 +41,8 @@ constexpr int kFiner = 3;
 /// many, hardly faster to ask [m].
 constexpr double kLeastForCells_m = 0.02;
 
-/// Cells half as large as the space around a thin patch: the many small patches share this
-/// size, for each size in use costs a query a look.
+/// Cells are half as large as the space around a thin patch. Small patches share this size:
+/// a query looks into one cell of each size in use.
 BoxIndex::Cells cellsFor(double kernelWidth_m, double outlierRatio) {
     requireInRange("kernelWidth_m", kernelWidth_m, 0.0, 1e3);
     requireInRange("outlierRatio", outlierRatio, 1e-9, 1.0 - 1e-9);

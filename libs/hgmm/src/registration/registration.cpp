@@ -35,7 +35,7 @@ Registration::Covariance aboutOrigin(const Matrix6d& covariance,
     return J * covariance * J.transpose();
 }
 
-/// Components of a mixture within searchRadius of a ball.
+/// Components of a mixture within three standard deviations of a ball.
 Mixture<3> near(const Mixture<3>& mixture, const Eigen::Vector3d& centre, double radius_m) {
     Mixture<3> kept;
     for (std::size_t i = 0; i < mixture.size(); ++i) {

@@ -12,7 +12,8 @@ namespace hgmm {
 
 namespace {
 
-/// Beyond so many widened standard deviations a target component is out of searchRadius.
+/// Beyond so many widened standard deviations a target component has no
+/// part in the alignment.
 constexpr float kReach = 3.F;
 /// A component is widened along itself by at most so many times the width.
 constexpr double kMaxAspect = 30.0;
@@ -50,7 +51,7 @@ Eigen::Matrix3d gyrationRadiiOf(const Eigen::Matrix3d& moments, double shortest_
            eigen.eigenvectors().transpose();
 }
 
-/// Keeps the nearest of the components within searchRadius of p, equally near ones in the
+/// Keeps the nearest of the components within kReach of p, equally near ones in the
 /// index' order.
 void findNearest(const ComponentIndex& index, const Eigen::Vector3f& p, Neighbours& found) {
     std::array<float, Neighbours::kMost> distance2;

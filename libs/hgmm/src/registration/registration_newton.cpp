@@ -47,9 +47,9 @@ Matrix6d diagonalise(Matrix6d& m) {
     return vectors;
 }
 
-/// What the target holds, in coordinates in which rotation counts as the way of the
-/// source's components: (gyrationRadii w, v). About an axis along which they lie that way
-/// is short.
+/// The directions of the pose that the target constrains. Coordinates are
+/// (gyrationRadii w, v): a rotation is scaled to the rms distance that it moves the
+/// source's components, so that it compares with a translation.
 class ObservableSubspace {
  public:
     ObservableSubspace(const CostSums& sums, const RegistrationSource& source,
@@ -232,8 +232,8 @@ Matrix6d poseCovariance(const TargetLayers& target, const SearchRadius& searchRa
     const CostSums sums = target.sums(source, neighbours, T_target_centre);
     const ObservableSubspace observable(sums, source, T_target_centre.R);
     if (!(sums.cost < 0.0) || observable.count() == 0) return unobservableCovariance();
-    // Few components scatter little by chance: as many more as there are unknowns, of the
-    // scatter that the cost itself supposes, keep the result positive definite.
+    // Few components underestimate their scatter. Adding that of six more, one for each
+    // unknown, as the cost itself expects it, keeps the result positive definite.
     const double matched = std::max(-sums.cost, 1.0);
     const Matrix6d scatter = observable.projected(
         Matrix6d(target.gradientScatter(source, neighbours, T_target_centre) +

@@ -22,7 +22,7 @@ constexpr std::size_t kFewestComponents = 400;
 constexpr int kStepsOfMany = 3;
 /// In the first stage the guess weighs as this share of the source's components. It is
 /// small for the information of so many, but keeps what slides along walls, or towards
-/// more overlap, within searchRadius of the guess.
+/// more overlap, near the guess.
 constexpr double kGuessShare = 0.05;
 /// Candidates that lie this near, in widths, are one.
 constexpr double kSame = 0.1;

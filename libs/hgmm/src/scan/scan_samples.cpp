@@ -7,7 +7,7 @@
 namespace hgmm {
 
 Eigen::Vector3d normalOfRays(const Mixture<3>& samples_sensor) {
-    constexpr double kMaxSlope = 0.01, kLeastSpread = 10 * kMaxSlope;
+    constexpr double kMaxSlope = 0.01, kLeastRaySpread = 10 * kMaxSlope;
     Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
     double rays = 0;
     const auto& mean = samples_sensor.mean;
@@ -21,7 +21,7 @@ Eigen::Vector3d normalOfRays(const Mixture<3>& samples_sensor) {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter);
     const Eigen::Vector3d& spread = eigen.eigenvalues();
     if (spread[0] > kMaxSlope * kMaxSlope * rays ||
-        !(spread[1] > kLeastSpread * kLeastSpread * rays))
+        !(spread[1] > kLeastRaySpread * kLeastRaySpread * rays))
         return Eigen::Vector3d::Zero();
     return eigen.eigenvectors().col(0);
 }

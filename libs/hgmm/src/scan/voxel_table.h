@@ -89,7 +89,7 @@ VoxelTable<Sums> sumLeaves(const Scan& scan, const FilterParams& params,
                            FilterCounts& counted, Add&& add) {
     // An edge of c sqrt(r) has the octave of its fourth power c^4 r^2, divided by four.
     const auto fourthPower = [](double v) { return static_cast<float>(v * v * v * v); };
-    const float leafAtOneMetre4 = fourthPower(params.leafAtOneMetre_m);
+    const float resolution4 = fourthPower(params.resolution_m);
     const float minLeaf4 = fourthPower(params.minLeaf_m);
     const auto minRange2 = static_cast<float>(params.minRange_m * params.minRange_m);
     const auto maxRange2 = static_cast<float>(params.maxRange_m * params.maxRange_m);
@@ -105,7 +105,7 @@ VoxelTable<Sums> sumLeaves(const Scan& scan, const FilterParams& params,
             ++(finite ? counted.outOfRange : counted.notFinite);
             continue;
         }
-        const int octave = octaveOf(std::max(minLeaf4, leafAtOneMetre4 * range2)) >> 2;
+        const int octave = octaveOf(std::max(minLeaf4, resolution4 * range2)) >> 2;
         const std::uint64_t key = leafKey(octave, Float4{x, y, z, 0.F});
         if (key != current) {
             current = key;

@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "hgmm/map.h"
-#include "hgmm/mrpt_bridge/matching.h"
 #include "hgmm/mrpt_bridge/mrpt_compat.h"
 
 namespace hgmm::mrpt_bridge {
+
+class SurfaceMatching;
 
 /// Neighbours of a point among the surfaces of a map, as
 /// mrpt::maps::NearestNeighborsCapable asks for them: for mp2p_icp and MOLA. MRPT 2.5 has

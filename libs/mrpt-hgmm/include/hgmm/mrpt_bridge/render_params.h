@@ -1,6 +1,8 @@
 #pragma once
 #include <string>
 
+#include "hgmm/option.h"
+
 namespace hgmm::mrpt_bridge {
 
 /// What the colour of an ellipsoid shows, from blue to red but for kModality.
@@ -38,6 +40,8 @@ struct RenderParams {
 
     /// Throws std::invalid_argument naming the field.
     void validate() const;
+    static const OptionTable<RenderParams>& options();
+    bool operator==(const RenderParams& o) const;
 };
 
 }  // namespace hgmm::mrpt_bridge

@@ -5,14 +5,19 @@
 #include <mrpt/math/TPoint3D.h>
 #include <mrpt/opengl/COctoMapVoxels.h>
 
+#include <memory>
 #include <string>
 
 #include "hgmm/map.h"
-#include "hgmm/mrpt_bridge/likelihood.h"
-#include "hgmm/mrpt_bridge/matching.h"
+#include "hgmm/mrpt_bridge/likelihood_params.h"
 #include "hgmm/mrpt_bridge/mrpt_compat.h"
 #include "hgmm/mrpt_bridge/nearest_neighbours.h"
 #include "hgmm/mrpt_bridge/render_params.h"
+
+namespace hgmm::mrpt_bridge {
+class ObservationLikelihood;
+class SurfaceMatching;
+}  // namespace hgmm::mrpt_bridge
 
 namespace mrpt::maps {
 
@@ -184,9 +189,7 @@ class CHGMMOccupancyMap : public CMetricMap, public ::hgmm::mrpt_bridge::Nearest
 
  private:
     const ::hgmm::Map& neighboursModel() const override { return model_; }
-    const ::hgmm::mrpt_bridge::SurfaceMatching& neighboursSurfaces() const override {
-        return matching_;
-    }
+    const ::hgmm::mrpt_bridge::SurfaceMatching& neighboursSurfaces() const override;
     void internal_clear() override;
     bool internal_insertObservation(
         const mrpt::obs::CObservation& observation,
@@ -203,8 +206,24 @@ class CHGMMOccupancyMap : public CMetricMap, public ::hgmm::mrpt_bridge::Nearest
     /// Of serialisation: copies made through archives (CMultiMetricMap's) lose nothing,
     /// files are small.
     ::hgmm::Encoding encoding_ = ::hgmm::Encoding::exact;
-    ::hgmm::mrpt_bridge::ObservationLikelihood likelihood_;
-    ::hgmm::mrpt_bridge::SurfaceMatching matching_;
+    /// What is made of the model for likelihoods and matching. Copies share it.
+    class Caches {
+     public:
+        Caches();
+        Caches(const Caches& o);
+        Caches& operator=(const Caches& o);
+        ~Caches();
+
+        /// To be called when the model has changed.
+        void invalidate();
+        const ::hgmm::mrpt_bridge::ObservationLikelihood& likelihood() const;
+        const ::hgmm::mrpt_bridge::SurfaceMatching& matching() const;
+
+     private:
+        struct Impl;
+        std::unique_ptr<Impl> impl_;
+    };
+    Caches caches_;
 
     MAP_DEFINITION_START(CHGMMOccupancyMap)
     /// Saved map to start from, if not empty. The model comes from this file, all options

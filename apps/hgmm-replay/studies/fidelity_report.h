@@ -1,0 +1,17 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "studies/fidelity_study.h"
+
+namespace replay {
+
+/// Mean estimated size and spread over the frames, for a reader.
+std::string fidelitySummary(const std::vector<FidelityCurve>& curves, std::size_t skipped);
+
+/// Writes fig3.2.csv, fig3.2_kl.svg and fig3.2_cs.svg. Throws std::runtime_error naming the
+/// file.
+void writeFidelityReport(const std::vector<FidelityCurve>& curves,
+                         const std::string& folder);
+
+}  // namespace replay

@@ -1,0 +1,28 @@
+#pragma once
+#include "hgmm/option.h"
+
+namespace hgmm::mrpt_bridge {
+
+constexpr int kMaxPoints = 1000000;
+
+/// Which points of a scan are compared with the map, and how.
+struct LikelihoodParams {
+    double kernelWidth_m = 0.02;  ///< standard deviation added to all surfaces [m], 0 to 10
+    double outlierRatio =
+        0.05;  ///< share of points that the map need not explain, in (0, 1)
+    /// Points compared, spread over the scan [count], 1 to kMaxPoints.
+    int maxPoints = 1000;
+    /// More points count together as so many [count], 1 to kMaxPoints: the errors of
+    /// neighbours are alike, and a particle filter must not be surer than the scan makes
+    /// it.
+    int independentPoints = 100;
+    double minRange_m = 0.1;   ///< nearer points are left out [m], >= 0
+    double maxRange_m = 80.0;  ///< farther points are left out [m], >= minRange_m
+
+    /// Throws std::invalid_argument naming the field.
+    void validate() const;
+    static const OptionTable<LikelihoodParams>& options();
+    bool operator==(const LikelihoodParams& o) const;
+};
+
+}  // namespace hgmm::mrpt_bridge

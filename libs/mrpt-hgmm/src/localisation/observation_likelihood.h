@@ -1,0 +1,58 @@
+#pragma once
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/poses/CPose3D.h>
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "hgmm/likelihood.h"
+#include "hgmm/map.h"
+#include "hgmm/mrpt_bridge/likelihood_params.h"
+
+namespace hgmm::mrpt_bridge {
+
+/// Likelihood of observations given a pose, for particle filters: sums SurfaceLikelihood
+/// over a spread subset of the scan's points. The more points, the nearer is its maximum to
+/// the pose; its height is that of independentPoints.
+///
+/// Keeps what calls have in common: the map's surfaces, brought up to date where the map
+/// changed since invalidate(), and, for all maps of the process, the points of the last few
+/// observations. Const calls may come from several threads. Copies
+/// share the surfaces.
+class ObservationLikelihood {
+ public:
+    ObservationLikelihood() = default;
+    ObservationLikelihood(const ObservationLikelihood& o) { *this = o; }
+    ObservationLikelihood& operator=(const ObservationLikelihood& o);
+
+    /// Log-likelihood [nat], finite, <= 0, and 0 for an empty map and for observations of
+    /// unsupported types or without points in range.
+    double operator()(const Map& map, const LikelihoodParams& params,
+                      const mrpt::obs::CObservation& observation,
+                      const mrpt::poses::CPose3D& T_map_robot) const;
+
+    /// To be called when the map has changed.
+    void invalidate();
+    /// Frees the points of observations, those that other maps asked for included.
+    static void forgetObservations();
+
+ private:
+    struct Surfaces {
+        SurfaceLikelihood likelihood;
+        double kernelWidth_m, outlierRatio;
+    };
+    std::shared_ptr<const Surfaces> surfacesOf(const Map& map,
+                                               const LikelihoodParams& params) const;
+
+    mutable std::mutex mutex_;
+    mutable std::shared_ptr<Surfaces> surfaces_;
+    /// Whether no copy of this object may hold the same surfaces: only then are they
+    /// brought up to date where they are, and not replaced.
+    mutable bool isOwner_ = false;
+    mutable bool stale_ = false;  ///< the map has changed since
+};
+
+}  // namespace hgmm::mrpt_bridge

@@ -1,0 +1,141 @@
+#include <mrpt/maps/CHGMMOccupancyMap.h>
+#include <mrpt/opengl/COpenGLScene.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <sstream>
+#include <stdexcept>
+
+#include "display/ellipsoids.h"
+#include "display/octomap_voxels.h"
+#include "hgmm/mrpt_bridge/observation_to_scan.h"
+#include "localisation/observation_likelihood.h"
+#include "map/map_archive.h"
+#include "observation/shared_samples.h"
+#include "options/modality_warnings.h"
+
+namespace bridge = ::hgmm::mrpt_bridge;
+
+namespace mrpt::maps {
+
+IMPLEMENTS_SERIALIZABLE(CHGMMOccupancyMap, CMetricMap, mrpt::maps)
+
+namespace {
+/// Comes after runtimeClassId. MRPT_INITIALIZER runs before it where clang compiled it, and
+/// would register a class without a name.
+[[maybe_unused]] const bool kIsRegistered =
+    (mrpt::rtti::registerClass(CLASS_ID(mrpt::maps::CHGMMOccupancyMap)), true);
+}  // namespace
+
+::hgmm::Map& CHGMMOccupancyMap::model() {
+    caches_.invalidate();
+    return model_;
+}
+
+void CHGMMOccupancyMap::applyInsertionOptions() {
+    // setParams drops derived data, so it is for parameters that did change.
+    if (model_.params() != insertionOptions.params)
+        model_.setParams(insertionOptions.params);
+}
+
+::hgmm::InsertReport CHGMMOccupancyMap::insertScan(const ::hgmm::Scan& scan) {
+    applyInsertionOptions();
+    bridge::warnOfAbsentModalities(model_, scan);
+    return model().insert(scan);
+}
+
+void CHGMMOccupancyMap::saveToFile(const std::string& fileName) const {
+    CHGMMOccupancyMap compact(*this);
+    compact.encoding_ = ::hgmm::Encoding::compact;
+    bridge::saveMapFile(compact, fileName);
+}
+
+void CHGMMOccupancyMap::loadFromFile(const std::string& fileName) {
+    // Not an assignment of the whole: observers of this map stay with it.
+    CHGMMOccupancyMap loaded = bridge::loadMapFile(fileName);
+    model() = std::move(loaded.model_);
+    insertionOptions = loaded.insertionOptions;
+    likelihoodOptions = loaded.likelihoodOptions;
+    renderOptions = loaded.renderOptions;
+    genericMapParams = loaded.genericMapParams;
+}
+
+std::string CHGMMOccupancyMap::asString() const {
+    std::ostringstream text;
+    text << "HGMM map, " << model_.mixture().size() << " components, "
+         << model_.levelCount() << " levels";
+    return text.str();
+}
+
+void CHGMMOccupancyMap::saveMetricMapRepresentationToFile(const std::string& prefix) const {
+    saveToFile(prefix + ".hgmm");
+    if (!genericMapParams.enableSaveAs3DObject) return;
+    mrpt::opengl::COpenGLScene scene;
+    scene.insert(getVisualization());
+    if (!scene.saveToFile(prefix + ".3Dscene"))
+        throw std::runtime_error(prefix + ".3Dscene: cannot be written");
+}
+
+void CHGMMOccupancyMap::getVisualizationInto(mrpt::opengl::CSetOfObjects& objects) const {
+    if (!genericMapParams.enableSaveAs3DObject) return;
+    bridge::appendEllipsoids(model_, renderOptions, objects);
+    // After what they would hide: OpenGL blends with what is there already.
+    bridge::appendVoxels(model_, renderOptions, objects);
+    bridge::appendFreeSpace(model_, renderOptions, objects);
+}
+
+void CHGMMOccupancyMap::getAsOctoMapVoxels(mrpt::opengl::COctoMapVoxels& gl_obj) const {
+    bridge::fillOctoMapVoxels(model_, renderOptions, gl_obj);
+}
+
+void CHGMMOccupancyMap::auxParticleFilterCleanUp() {
+    bridge::ObservationLikelihood::forgetObservations();
+    bridge::forgetSharedSamples();
+}
+
+uint8_t CHGMMOccupancyMap::serializeGetVersion() const {
+    return bridge::kArchiveVersion;
+}
+
+void CHGMMOccupancyMap::serializeTo(mrpt::serialization::CArchive& out) const {
+    bridge::writeMap(out, *this, encoding_);
+}
+
+void CHGMMOccupancyMap::serializeFrom(mrpt::serialization::CArchive& in, uint8_t version) {
+    bridge::readMap(in, version, *this);
+}
+
+void CHGMMOccupancyMap::internal_clear() {
+    model().clear();
+}
+
+bool CHGMMOccupancyMap::internal_insertObservation(
+    const mrpt::obs::CObservation& observation,
+    const std::optional<const mrpt::poses::CPose3D>& robotPose) {
+    if (!bridge::isSupported(observation)) return false;
+    if (!insertionOptions.params.modalities.empty()) {
+        const auto scan = bridge::observationToScan(observation, robotPose);
+        return scan && insertScan(*scan).samples > 0;
+    }
+    applyInsertionOptions();
+    const auto samples = bridge::sharedSamplesOf(observation, model_.params());
+    if (!samples) return false;
+    const ::hgmm::Pose T_map_sensor = bridge::sensorPoseInMap(observation, robotPose);
+    return model().insert(*samples, T_map_sensor).samples > 0;
+}
+
+double CHGMMOccupancyMap::internal_computeObservationLikelihood(
+    const mrpt::obs::CObservation& observation,
+    const mrpt::poses::CPose3D& takenFrom) const {
+    return caches_.likelihood()(model_, likelihoodOptions, observation, takenFrom);
+}
+
+bool CHGMMOccupancyMap::internal_canComputeObservationLikelihood(
+    const mrpt::obs::CObservation& observation) const {
+    return bridge::isSupported(observation);
+}
+
+void CHGMMOccupancyMap::OnPostSuccesfulInsertObs(const mrpt::obs::CObservation&) {
+    caches_.invalidate();
+}
+
+}  // namespace mrpt::maps

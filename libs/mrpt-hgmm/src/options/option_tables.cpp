@@ -1,0 +1,117 @@
+#include "options/option_tables.h"
+
+#include "hgmm/mrpt_bridge/likelihood_params.h"
+#include "hgmm/mrpt_bridge/render_params.h"
+#include "hgmm/params.h"
+
+namespace hgmm::mrpt_bridge {
+
+const OptionTable<LikelihoodParams>& LikelihoodParams::options() {
+    using P = LikelihoodParams;
+    static const OptionTable<P> table = {
+        Option<P>("kernelWidth_m", &P::kernelWidth_m, "m", 0, 10,
+                  "standard deviation added to all surfaces; wider finds the pose from "
+                  "farther away, narrower is more exact")
+            .basic()
+            .formerly("softening_m"),
+        {"outlierRatio", &P::outlierRatio, "1", 1e-9, 1.0 - 1e-9,
+         "share of points that the map need not explain"},
+        Option<P>("maxPoints", &P::maxPoints, "count", 1, kMaxPoints,
+                  "points of a scan that are compared with the map")
+            .basic(),
+        {"independentPoints", &P::independentPoints, "count", 1, kMaxPoints,
+         "more points count together as this many: errors of neighbours are alike"},
+        {"minRange_m", &P::minRange_m, "m", 0, 1e6, "nearer points are left out"},
+        Option<P>("maxRange_m", &P::maxRange_m, "m", 0, 1e6, "farther points are left out")
+            .notBelow("minRange_m")};
+    return table;
+}
+
+const OptionTable<RenderParams>& RenderParams::options() {
+    using P = RenderParams;
+    static const OptionTable<P> table = {
+        {"level", &P::level, "count", 0, 1000, "level of the hierarchy, 0 the finest"},
+        {"drawEllipsoids", &P::drawEllipsoids, "the surface components"},
+        {"drawFreeSpace", &P::drawFreeSpace,
+         "free-space components, as translucent ellipsoids"},
+        {"drawVoxels", &P::drawVoxels, "cubes"},
+        {"sigmas", &P::sigmas, "sigma", 0.01, 10, "size of the ellipsoids"},
+        {"maxEllipsoids", &P::maxEllipsoids, "count", 1, 1e7,
+         "only the components with most support are drawn"},
+        Option<P>(
+            "colour", &P::colour, "1", 0, static_cast<int>(EllipsoidColour::kModality),
+            "what colours show: 0 height, 1 weight, 2 P(occ), 3 deviation, 4 modality")
+            .formerly("colourByWeight"),
+        {"modality", &P::modality,
+         "shown if colour is 4: rgb or a name; empty: rgb if the map has it, else its "
+         "first"},
+        Option<P>("voxelResolution_m", &P::voxelResolution_m, "m", 1e-4, 1e4,
+                  "edge of the voxels; 0: derived from the map")
+            .orZero(),
+        {"minOccupied", &P::minOccupied, "1", 0.01, 0.99, "P(occ) of an occupied voxel"},
+        {"generateOccupiedVoxels", &P::generateOccupiedVoxels, "make occupied voxels"},
+        {"visibleOccupiedVoxels", &P::visibleOccupiedVoxels, "show occupied voxels"},
+        {"generateFreeVoxels", &P::generateFreeVoxels, "make free voxels"},
+        {"visibleFreeVoxels", &P::visibleFreeVoxels, "show free voxels"},
+        {"generateGridLines", &P::generateGridLines, "edges of all voxels"}};
+    return table;
+}
+
+const OptionTable<CreationOptions>& CreationOptions::options() {
+    using P = CreationOptions;
+    static const OptionTable<P> table = {
+        Option<P>("load_file", &P::load_file,
+                  "saved map (.hgmm) to start from; looked for in the working folder, then "
+                  "beside the configuration")
+            .basic(),
+        {"enableSaveAs3DObject", &P::enableSaveAs3DObject,
+         "MRPT's: the map appears in 3D scenes"},
+        {"enableObservationLikelihood", &P::enableObservationLikelihood,
+         "MRPT's: the map takes part in the likelihood of observations"},
+        {"enableObservationInsertion", &P::enableObservationInsertion,
+         "MRPT's: observations are inserted"}};
+    return table;
+}
+
+void LikelihoodParams::validate() const {
+    requireOptionsInRange(*this);
+}
+bool LikelihoodParams::operator==(const LikelihoodParams& o) const {
+    return sameOptions(*this, o);
+}
+
+void RenderParams::validate() const {
+    requireOptionsInRange(*this);
+}
+bool RenderParams::operator==(const RenderParams& o) const {
+    return sameOptions(*this, o);
+}
+
+namespace {
+
+template <typename Struct>
+std::vector<const OptionRow*> rowsOf() {
+    std::vector<const OptionRow*> rows;
+    for (const OptionRow& row : Struct::options()) rows.push_back(&row);
+    return rows;
+}
+
+std::vector<const OptionRow*> insertionRows() {
+    std::vector<const OptionRow*> rows;
+    const MapParams params;
+    forEachOption(params, [&](const OptionRow& row, const auto&) { rows.push_back(&row); });
+    return rows;
+}
+
+}  // namespace
+
+const std::vector<SectionRows>& allSections() {
+    static const std::vector<SectionRows> sections = {
+        {"insertOpts", insertionRows()},
+        {"likelihoodOpts", rowsOf<LikelihoodParams>()},
+        {"renderOpts", rowsOf<RenderParams>()},
+        {"creationOpts", rowsOf<CreationOptions>()}};
+    return sections;
+}
+
+}  // namespace hgmm::mrpt_bridge

@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# What is too slow for .ci/run, in stages. Run it before an issue closes.
+#   scripts/long.sh     HGMM_DATA_DIR names the recordings, ../shared/data if unset
+set -euo pipefail
+cd "$(dirname "$0")/.."
+. scripts/stages.sh
+
+# Sanitized, what .ci/run leaves out: evaluation, programs, and all that is labelled slow.
+sanitizedRest() {
+    cmake --preset asan >/dev/null
+    cmake --build --preset asan-all
+    env -u HGMM_DATA_DIR ctest --preset asan-all -j "$(nproc)"
+}
+
+# Races that show in one of many runs.
+racesAgain() {
+    cmake --preset tsan >/dev/null
+    cmake --build --preset tsan
+    ctest --preset tsan --repeat until-fail:20
+}
+
+# The core's tests as they are built for changing code, and each in a process and order of its own.
+coreShuffled() {
+    cmake --preset debug >/dev/null
+    cmake --build --preset debug --target test-hgmm test-threads
+    build-debug/tests/test-hgmm --gtest_brief=1 --gtest_shuffle
+    build-debug/tests/test-threads --gtest_brief=1 --gtest_shuffle
+}
+
+stage 'packages' scripts/install-deps.sh asan
+stage 'same maps as before' scripts/equality.sh
+stage 'equality sees one ulp' scripts/equality.sh --self-test
+stage 'core in debug, shuffled' coreShuffled
+stage 'sanitized, everything' sanitizedRest
+stage 'races, 20 times' racesAgain
