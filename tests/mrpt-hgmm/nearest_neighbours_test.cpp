@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 #include <mrpt/maps/CHGMMOccupancyMap.h>
-#include <mrpt/poses/CPose3DQuat.h>
-#include <mrpt/tfest/se3.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -94,8 +92,9 @@ void expectNearest(const std::vector<Surface<D>>& surfaces, const Vector<D>& p_m
               count)
         << "each component once";
     for (std::size_t k = 0; k < count; ++k) {
-        ASSERT_LT(found.indices[k], surfaces.size());
-        const Vector<D> point = surfaces[found.indices[k]].nearestTo(p_map);
+        const auto component = static_cast<std::uint32_t>(found.indices[k]);
+        ASSERT_LT(component, surfaces.size());
+        const Vector<D> point = surfaces[component].nearestTo(p_map);
         EXPECT_LT((vectorOf<D>(found.points[k]) - point).norm(), 1e-4) << k;
         EXPECT_NEAR(std::sqrt(found.squaredDistances_m2[k]), expected[k], 1e-5) << k;
         EXPECT_NEAR((point - p_map).norm(), expected[k], 1e-5) << k;
@@ -119,7 +118,7 @@ template <int D>
 void expectExactness(const CHGMMOccupancyMap& map) {
     const auto surfaces = surfacesOf<D>(map.model());
     ASSERT_GT(surfaces.size(), 20U);
-    EXPECT_TRUE(map.nn_has_indices_or_ids());
+    EXPECT_FALSE(map.nn_has_indices_or_ids());
     EXPECT_EQ(map.nn_index_count(), surfaces.size());
     for (const auto& query : queries<D>(map, 200)) {
         const Vector<D> p_map = vectorOf<D>(query);
@@ -246,53 +245,6 @@ TEST(BoundingBox, IsAroundTheSurfacesWithTheirThickness) {
     const auto other = box.intersection({{100, -53, 3}, {200, -52, 4}});
     ASSERT_TRUE(other);
     EXPECT_EQ(other->max.x, box.max.x);
-}
-
-#if HGMM_MRPT_HAS_NEAREST_NEIGHBOURS
-/// How mp2p_icp comes to the interface.
-const mrpt::maps::NearestNeighborsCapable& neighboursOf(const mrpt::maps::CMetricMap& map) {
-    return dynamic_cast<const mrpt::maps::NearestNeighborsCapable&>(map);
-}
-#else
-const CHGMMOccupancyMap& neighboursOf(const mrpt::maps::CMetricMap& map) {
-    return dynamic_cast<const CHGMMOccupancyMap&>(map);
-}
-#endif
-
-// As a matcher of points does, which knows nothing of surfaces.
-TEST(NearestNeighbours, PairsOfPointsAlignAScan) {
-    const CHGMMOccupancyMap::Ptr map = std::make_shared<CHGMMOccupancyMap>(lit_room::map());
-    const mrpt::maps::CMetricMap& base = *map;
-    const auto& neighbours = neighboursOf(base);
-    neighbours.nn_prepare_for_3d_queries();
-    const auto cloud = lit_room::scan({0.2, -0.1, 0.1}, 9)->pointcloud;
-    const Eigen::Vector3d at = lit_room::kMiddle_map + Eigen::Vector3d(0.2, -0.1, 0.1);
-    const CPose3D truth(at.x(), at.y(), at.z(), 0, 0, 0);
-    CPose3D pose = truth + CPose3D(0.2, -0.15, 0.2, 0.06, -0.04, 0.05);
-    for (int iteration = 0; iteration < 40; ++iteration) {
-        mrpt::tfest::TMatchingPairList pairs;
-        for (std::size_t i = 0; i < cloud->size(); i += 5) {
-            float x = 0, y = 0, z = 0, squared = 0;
-            cloud->getPoint(i, x, y, z);
-            const auto p = pose.composePoint(mrpt::math::TPoint3D(x, y, z));
-            mrpt::math::TPoint3Df found;
-            std::uint64_t index = 0;
-            if (neighbours.nn_single_search(mrpt::math::TPoint3Df(p), found, squared,
-                                            index) &&
-                squared < 0.25F)
-                pairs.emplace_back(std::uint32_t(index), std::uint32_t(i), found.x, found.y,
-                                   found.z, x, y, z);
-        }
-        mrpt::poses::CPose3DQuat better;
-        double scale = 1;
-        ASSERT_TRUE(mrpt::tfest::se3_l2(pairs, better, scale, true));
-        pose = CPose3D(better);
-    }
-    const CPose3D error = pose - truth;
-    EXPECT_LT(error.norm(), 0.02) << error;
-    EXPECT_LT(std::abs(error.yaw()) + std::abs(error.pitch()) + std::abs(error.roll()),
-              mrpt::DEG2RAD(0.6))
-        << error;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <mrpt/maps/CHGMMOccupancyMap.h>
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <type_traits>
 
@@ -32,6 +33,19 @@ Point toMap(const std::array<float, kDimension<Point>>& local,
     return p_map;
 }
 
+/// ID of a component's cell where a projection is.
+template <int D>
+std::uint64_t idOf(const typename SurfaceProjection<D>::Projection& projection) {
+    std::uint32_t cell = 0;  // 11 bits an axis in 2D, 10 in 3D: unique within 100 m
+    for (int d = 0; d < D; ++d) {
+        const auto at = static_cast<std::int64_t>(
+            std::floor(double(projection.point[d]) / NearestNeighbours::kCell_m));
+        cell =
+            cell << (D == 2 ? 11 : 10) | (std::uint32_t(at) & (D == 2 ? 0x7FFU : 0x3FFU));
+    }
+    return std::uint64_t{cell} << 32 | projection.component;
+}
+
 }  // namespace
 
 std::size_t NearestNeighbours::nn_index_count() const {
@@ -55,7 +69,7 @@ bool NearestNeighbours::single(const Point& query, Point& result, float& squared
     if (!projection) return false;
     result = toMap<Point>(projection->point, map.origin());
     squaredDistance_m2 = projection->squaredDistance_m2;
-    index = projection->component;
+    index = idOf<kDimension<Point>>(*projection);
     return true;
 }
 
@@ -73,7 +87,7 @@ void NearestNeighbours::several(const Point& query, std::size_t count,
          surfaces->neighbours(toLocal(query, map.origin()), count, maxSquaredDistance_m2)) {
         results.push_back(toMap<Point>(projection.point, map.origin()));
         squaredDistances_m2.push_back(projection.squaredDistance_m2);
-        indices.push_back(projection.component);
+        indices.push_back(idOf<kDimension<Point>>(projection));
     }
 }
 

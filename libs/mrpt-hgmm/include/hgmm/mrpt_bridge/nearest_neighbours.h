@@ -22,8 +22,13 @@ class SurfaceMatching;
 /// sparse points somewhere on large surfaces, half a metre off along them; with the nearest
 /// point, pairing points with points moves a scan along a wall freely, as pairing with
 /// planes does. Of several neighbours, the first is what the point sees, the others lie on
-/// the surfaces around. The index is the component's in `model().mixture()`: it is another
-/// one after the map has changed.
+/// the surfaces around.
+///
+/// An ID has the component's index in `model().mixture()` in its low 32 bits, and above
+/// them a number for the cell, of edge kCell_m, where the neighbour lies: a matcher that
+/// takes each ID once keeps the best point for each cell. (With one ID a component, it
+/// would keep points that are on their surfaces already, and hardly move.) IDs do not
+/// survive a change of the map.
 ///
 /// In 2D, surfaces are those of the components' horizontal marginals, line segments,
 /// whatever their heights: for maps of planar lasers.
@@ -41,9 +46,11 @@ class NearestNeighbours : public NearestNeighboursInterface {
     /// @name mrpt::maps::NearestNeighborsCapable
     /// @{
 
-    /// True: they are indices of components.
+    static constexpr double kCell_m = 0.1;  ///< edge of the cells that IDs tell apart [m]
+
+    /// False: they are IDs.
     [[nodiscard]] bool nn_has_indices_or_ids() const HGMM_OVERRIDE_SINCE_2_11_3 {
-        return true;
+        return false;
     }
     /// Number of components at level 0.
     [[nodiscard]] std::size_t nn_index_count() const HGMM_OVERRIDE_SINCE_2_11_3;
