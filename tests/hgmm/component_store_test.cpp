@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <random>
 #include <utility>
@@ -90,6 +91,8 @@ std::vector<unsigned char> answersOf(const Map& map, std::uint64_t seed) {
         put(map.logDensity(p));
         const auto hit = map.castRay(p, to - p);
         put(hit ? hit->range_m : -1.0);
+        const ModalityEstimate grey = map.modality("intensity", p);
+        put(grey.mean), put(grey.variance);
     }
     for (std::size_t level = 0; level < map.levelCount(); ++level) {
         putArray(map.mixture(level).support);
@@ -108,7 +111,17 @@ Scan someScan(std::mt19937_64& random) {
     scanner.azimuths = 90;
     scanner.elevations = 12;
     const auto seed = random();
-    return scanner.scan(testing::walk(static_cast<int>(random() % 20), 0.8), seed);
+    Scan scan = scanner.scan(testing::walk(static_cast<int>(random() % 20), 0.8), seed);
+    scan.channels.push_back({"intensity", {}});
+    for (std::size_t i = 0; i < scan.size(); ++i)
+        scan.channels[0].values.push_back(std::fmod(std::abs(scan.y[i] + scan.z[i]), 1.F));
+    return scan;
+}
+
+MapParams withIntensity() {
+    MapParams params;
+    params.modalities = {"intensity"};
+    return params;
 }
 
 void change(Map& map, std::mt19937_64& random) {
@@ -124,7 +137,7 @@ void change(Map& map, std::mt19937_64& random) {
             break;
         }
         case 2: {
-            Map other;
+            Map other(withIntensity());
             for (int k = 0; k < 2; ++k) other.insert(someScan(random));
             map.merge(other, testing::shaken({}, 0.02, 0.002, random()));
             break;
@@ -145,7 +158,7 @@ TEST(QueryCache, IsThatOfAFreshCopyAfterAnyChanges) {
     std::size_t removed = 0;
     for (const std::uint64_t seed : {1, 2, 3, 4}) {
         std::mt19937_64 random(seed);
-        Map map;
+        Map map(withIntensity());
         for (int step = 0; step < 25; ++step) {
             answersOf(map, seed);  // so that there are caches, which must follow
             change(map, random);
@@ -178,7 +191,8 @@ TEST(Map, IsEmptyAndUsableWhenMovedFrom) {
     EXPECT_TRUE(taken.empty());  // NOLINT
     taken.insert(someScan(random));
     EXPECT_FALSE(taken.empty());
-    other = std::move(other);  // NOLINT
+    Map& same = other;
+    other = std::move(same);
     EXPECT_FALSE(other.empty());
 }
 
