@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The README's table: imports the recordings of HGMM_DATA_DIR and replays each with default
+# The table of BENCHMARK.md: imports the recordings of HGMM_DATA_DIR and replays each with default
 # options, other maps beside ours. One line per recording and map.
 #   HGMM_DATA_DIR=../shared/data scripts/results.sh
 # Needs a build (scripts/test.sh makes one). Rawlogs and reports go to build/results.
