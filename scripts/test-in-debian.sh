@@ -33,6 +33,8 @@ if [[ -z ${HGMM_IN_NAMESPACE:-} ]]; then
     export HGMM_IN_NAMESPACE=1
     exec unshare --mount --pid --fork --kill-child "$BASH" "scripts/$(basename "$0")" "$suite" "$what"
 fi
+# The first process of a namespace ignores these unless told what to do.
+trap 'exit 130' INT TERM
 
 work=$(realpath -m "${HGMM_DEBIAN_DIR:-/var/tmp/hgmm-debian}/$suite")
 [[ $work/ != "$PWD"/* ]] || fail "$work is in the repository; HGMM_DEBIAN_DIR names another folder"
@@ -143,7 +145,9 @@ inside() { # COMMAND...
 failed=0
 try() { # NAME
     local log=$work/$1.log from=$SECONDS
-    if inside "scripts/$1.sh" </dev/null >"$log" 2>&1; then
+    # In the background, because a trap waits for what is in the foreground.
+    inside "scripts/$1.sh" </dev/null >"$log" 2>&1 &
+    if wait $!; then
         echo "$suite: scripts/$1.sh passed in $((SECONDS - from)) s"
         grep -E 'tests passed|^estimated final pose' "$log" || true
     else
