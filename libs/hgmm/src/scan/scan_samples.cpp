@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "scan/cleared_rays.h"
 #include "scan/ring_interpolation.h"
 
 namespace hgmm {
@@ -32,6 +33,8 @@ ScanSamples samplesOf(const Scan& scan, const MapParams& params) {
     params.cells.validate();
     ScanSamples result;
     result.samples_sensor = filterScan(scan, params.filter, &result.points);
+    if (result.points.cut > 0 || !scan.clearedRays.empty())
+        result.clearedRays_sensor = clearedRaysOf(scan, params.filter);
     interpolateRings(result.samples_sensor, params.cells);
     result.normalOfRays_sensor = normalOfRays(result.samples_sensor);
     return result;
