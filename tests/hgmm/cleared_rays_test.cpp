@@ -111,6 +111,28 @@ TEST(ClearedRays, LeaveSamplesAsTheyAre) {
     EXPECT_EQ(both.points.used, scan.size());
 }
 
+/// The few hits of a sensor in the open may lie in a plane by chance, or on a line.
+TEST(ClearedRays, TellTheShapeOfTheSensor) {
+    Scan pole;  // hits at one azimuth
+    for (int i = -5; i <= 5; ++i) pole.pushBack(4, 0, 0.4F * float(i));
+    ASSERT_GT(std::abs(samplesOf(pole, {}).normalOfRays_sensor.y()), 0.99);
+    Scan planar;
+    planar.pushBack(4, 0, 0);
+    ASSERT_TRUE(samplesOf(planar, {}).normalOfRays_sensor.isZero());
+    for (int i = 0; i < 60; ++i) {
+        const float angle = 0.1F * float(i);
+        const Eigen::Vector3f ray(std::cos(angle), std::sin(angle), 0);
+        planar.clearedRays.push_back({ray, 5.F});
+        pole.clearedRays.push_back({ray, 5.F});
+    }
+    EXPECT_TRUE(samplesOf(pole, {}).normalOfRays_sensor.isZero());
+    EXPECT_GT(std::abs(samplesOf(planar, {}).normalOfRays_sensor.z()), 1 - 1e-6);
+    planar.x.clear();
+    planar.y.clear();
+    planar.z.clear();
+    EXPECT_GT(std::abs(samplesOf(planar, {}).normalOfRays_sensor.z()), 1 - 1e-6);
+}
+
 TEST(ClearedRays, UnsoundOnesAreRefusedByName) {
     const Eigen::Vector3f x = Eigen::Vector3f::UnitX();
     for (const ClearedRay& bad :
