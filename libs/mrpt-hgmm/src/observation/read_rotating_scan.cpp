@@ -58,26 +58,46 @@ Azimuths azimuths(const CObservationRotatingScan& o) {
             o.columnCount > 1 ? o.azimuthSpan / (o.columnCount - 1.0) : 0.0};
 }
 
+/// Whether lasers fired at a column. Images that are not full end with columns of zeros,
+/// and packets that were lost leave some; a single row cannot tell.
+bool wasFired(const CObservationRotatingScan& o, int col) {
+    if (o.rowCount == 1) return true;
+    for (int row = 0; row < o.rowCount; ++row)
+        if (o.rangeImage(row, col) != 0) return true;
+    return false;
+}
+
 void readImage(const CObservationRotatingScan& o, const std::vector<double>& elevations,
-               Channels channels, Scan& scan) {
+               Channels channels, const ReadingParams& reading, Scan& scan) {
     const bool bright =
         o.intensityImage.rows() == o.rowCount && o.intensityImage.cols() == o.columnCount;
     const Azimuths azimuth = azimuths(o);
+    const SensorRange sensor(o.maxRange);
     ScanWriter writer(scan, bright ? channels : Channels::none, {"intensity"});
     for (int col = 0; col < o.columnCount; ++col) {
         const double angle = azimuth.first + col * azimuth.step;
         const double c = std::cos(angle), s = std::sin(angle);
+        const auto pointAt = [&](double elevation, double range) -> Eigen::Vector3d {
+            const double flat = range * std::cos(elevation);
+            return {flat * c, flat * s, range * std::sin(elevation)};
+        };
+        const bool clears = reading.considerNoReturnsAsFreeSpace && wasFired(o, col);
         for (int row = 0; row < o.rowCount; ++row) {
             const auto raw = o.rangeImage(row, col);
-            if (raw == 0) continue;
+            if (raw == 0 && !clears) continue;
             const double range = raw * o.rangeResolution;
-            const double flat = range * std::cos(elevations[row]);
-            const auto x = static_cast<float>(flat * c), y = static_cast<float>(flat * s);
-            const auto z = static_cast<float>(range * std::sin(elevations[row]));
-            if (bright)
-                writer.pushBack(x, y, z, o.intensityImage(row, col) / 255.F);
-            else
-                writer.pushBack(x, y, z);
+            if (raw == 0) {
+                sensor.clearShare(pointAt(elevations[row], 1.0), reading, scan);
+            } else if (sensor.isReached(range)) {
+                sensor.clearAll(pointAt(elevations[row], 1.0), scan);
+            } else {
+                const Eigen::Vector3f p = pointAt(elevations[row], range).cast<float>();
+                if (bright)
+                    writer.pushBack(p.x(), p.y(), p.z(),
+                                    o.intensityImage(row, col) / 255.F);
+                else
+                    writer.pushBack(p.x(), p.y(), p.z());
+            }
         }
     }
 }
@@ -88,7 +108,8 @@ bool canRead(const CObservationRotatingScan& o) {
     return o.rowCount == 0 || o.columnCount == 0 || !rowElevations(o).empty();
 }
 
-bool readScan(const CObservationRotatingScan& o, Channels channels, Scan& scan) {
+bool readScan(const CObservationRotatingScan& o, Channels channels,
+              const ReadingParams& reading, Scan& scan) {
     if (o.rowCount == 0 || o.columnCount == 0) return true;
     if (o.rangeImage.rows() != o.rowCount || o.rangeImage.cols() != o.columnCount) {
         warnOnce("CObservationRotatingScan '" + o.sensorLabel +
@@ -104,7 +125,7 @@ bool readScan(const CObservationRotatingScan& o, Channels channels, Scan& scan) 
             "HDL-32E are known. Convert it to CObservationPointCloud.");
         return false;
     }
-    readImage(o, elevations, channels, scan);
+    readImage(o, elevations, channels, reading, scan);
     return true;
 }
 

@@ -6,8 +6,11 @@
 #include <mrpt/obs/CObservationRotatingScan.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -15,21 +18,21 @@
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
 #include "hgmm/scan.h"
 
-/// One reader per observation type. Each fills points, and channels if these are wanted, in
-/// the sensor frame and leaves T_map_sensor alone; false means that the observation cannot
-/// be understood.
+/// One reader per observation type. Each fills points, channels if these are wanted, and
+/// cleared rays, in the sensor frame and leaves T_map_sensor alone; false means that the
+/// observation cannot be understood.
 namespace hgmm::mrpt_bridge {
 
 bool readScan(const mrpt::obs::CObservation2DRangeScan& observation, Channels channels,
-              Scan& scan);
+              const ReadingParams& reading, Scan& scan);
 bool readScan(const mrpt::obs::CObservation3DRangeScan& observation, Channels channels,
-              Scan& scan);
+              const ReadingParams& reading, Scan& scan);
 bool readScan(const mrpt::obs::CObservationPointCloud& observation, Channels channels,
-              Scan& scan);
+              const ReadingParams& reading, Scan& scan);
 bool readScan(const mrpt::obs::CObservationVelodyneScan& observation, Channels channels,
-              Scan& scan);
+              const ReadingParams& reading, Scan& scan);
 bool readScan(const mrpt::obs::CObservationRotatingScan& observation, Channels channels,
-              Scan& scan);
+              const ReadingParams& reading, Scan& scan);
 
 /// Whether readScan would understand the observation, as far as can be told without its
 /// data.
@@ -63,6 +66,42 @@ std::mutex& externalStorageMutex();
 
 /// Prints a message on stderr the first time that it is given.
 void warnOnce(const std::string& message);
+
+/// The readings of a sensor that knows how far it sees.
+class SensorRange {
+ public:
+    /// @param maxRange_m one that is not positive and finite is not known: no reading is
+    /// beyond it, and rays without return clear nothing
+    explicit SensorRange(double maxRange_m)
+        : maxRange_(maxRange_m > 0 && std::isfinite(maxRange_m) ? maxRange_m : 0) {}
+
+    /// Whether a reading says that nothing is nearer than the sensor sees.
+    bool isReached(double range_m) const {
+        constexpr double tolerance = 1e-4;  // [maxRange]
+        return maxRange_ > 0 && range_m >= (1 - tolerance) * maxRange_;
+    }
+    /// Adds a ray whose reading is at the end of what the sensor sees.
+    /// @param direction in the sensor frame, of any length
+    void clearAll(const Eigen::Vector3d& direction, Scan& scan) const {
+        clear(direction, maxRange_, scan);
+    }
+    /// Adds a ray without return.
+    /// @param most it clears no farther [m]
+    void clearShare(const Eigen::Vector3d& direction, const ReadingParams& reading,
+                    Scan& scan,
+                    double most = std::numeric_limits<double>::infinity()) const {
+        clear(direction, std::min(reading.clearedShareOfMaxRange * maxRange_, most), scan);
+    }
+
+ private:
+    static void clear(const Eigen::Vector3d& direction, double length, Scan& scan) {
+        if (length > 0 && direction.allFinite())
+            scan.clearedRays.push_back(
+                {direction.normalized().cast<float>(), static_cast<float>(length)});
+    }
+
+    double maxRange_;  // [m]; 0 if not known
+};
 
 /// Fills a scan point by point, dropping those that are not finite, with their channel
 /// values.
