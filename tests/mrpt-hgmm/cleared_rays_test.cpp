@@ -47,21 +47,45 @@ mrpt::obs::CObservation2DRangeScan::Ptr threeRays(std::vector<float> ranges,
     return o;
 }
 
-TEST(ClearedRaysOf2D, RaysWithoutReturnClearAShareOfMaxRange) {
+TEST(ClearedRaysOf2D, RaysWithoutReturnClearAShareOfWhatIsSeenBeside) {
     const auto o = threeRays({0.F, 4.F, -1.F}, {false, true, true});
     const Scan scan = read(*o);
     ASSERT_EQ(scan.size(), 1U);
     EXPECT_FLOAT_EQ(scan.x[0], 4.F);
     ASSERT_EQ(scan.clearedRays.size(), 2U);
-    expectRay(scan.clearedRays[0], 0, -5, 0);
-    expectRay(scan.clearedRays[1], 0, 5, 0);
+    expectRay(scan.clearedRays[0], 0, -2, 0);
+    expectRay(scan.clearedRays[1], 0, 2, 0);
 
     ReadingParams reading;
-    reading.clearedShareOfMaxRange = 0.25;
-    expectRay(read(*o, reading).clearedRays.at(1), 0, 2.5, 0);
+    reading.clearedShareOfRange = 0.25;
+    expectRay(read(*o, reading).clearedRays.at(1), 0, 1, 0);
     reading.considerInvalidRangesAsFreeSpace = false;
     EXPECT_TRUE(read(*o, reading).clearedRays.empty());
     EXPECT_EQ(read(*o, reading).size(), 1U);
+
+    // The longer side; a reading at maxRange; nothing at all.
+    expectRay(read(*threeRays({2.F, 0.F, 6.F}, {true, false, true})).clearedRays.at(0), 3,
+              0, 0);
+    expectRay(read(*threeRays({2.F, 0.F, 40.F}, {true, false, true})).clearedRays.at(1), 5,
+              0, 0);
+    expectRay(read(*threeRays({0.F, 0.F, 0.F}, {false, false, false})).clearedRays.at(1), 5,
+              0, 0);
+}
+
+TEST(ClearedRaysOf2D, ADarkPatchOfAWallIsNotSeenThrough) {
+    // maxRange is far beyond the room, as with most lasers.
+    const auto o = observations::laser();
+    ASSERT_EQ(o->maxRange, 80.F);
+    for (const std::size_t i : {0U, 40U, 41U, 42U, 90U, 180U})
+        o->setScanRangeValidity(i, false);
+    const Scan scan = read(*o);
+    ASSERT_EQ(scan.clearedRays.size(), 6U);
+    for (const ClearedRay& ray : scan.clearedRays) {
+        const double wall = observations::wallRange(
+            std::atan2(double(ray.direction.y()), double(ray.direction.x())));
+        EXPECT_LT(ray.length_m, 0.6 * wall);
+        EXPECT_GT(ray.length_m, 0.4 * wall);
+    }
 }
 
 TEST(ClearedRaysOf2D, AReadingAtMaxRangeIsNoWall) {
@@ -93,7 +117,8 @@ TEST(ClearedRaysOf2D, AnInvalidRayClearsNoFartherThanWhatItHolds) {
 }
 
 TEST(ClearedRaysOf2D, GoWhereTheHitsGo) {
-    // A sweeping laser that turns clockwise: a ray's direction is that of its reading.
+    // A sweeping laser that turns clockwise: a ray's direction is that of its reading,
+    // and without any return the length is the reading's, too.
     const auto o = observations::laser();
     o->rightToLeft = false;
     o->deltaPitch = 0.3;
@@ -163,7 +188,8 @@ TEST(ClearedRaysOfRotating, ZeroIsNoReturnIfAsked) {
         EXPECT_EQ(scan.size(), full.size() - 1);
         ASSERT_EQ(scan.clearedRays.size(), 1U);
         const Eigen::Vector3d hit(full.x[ahead], full.y[ahead], full.z[ahead]);
-        const Eigen::Vector3d end = 30 * hit.normalized();
+        // In the flat of the room all neighbours are 4 m away or a little more.
+        const Eigen::Vector3d end = 2 * hit.normalized();
         expectRay(scan.clearedRays[0], end.x(), end.y(), end.z());
     }
 }
@@ -181,8 +207,9 @@ TEST(ClearedRaysOfRotating, ColumnsThatWereNotFiredClearNothing) {
     EXPECT_GT(scan.size(), 100U);
     EXPECT_LE(scan.size() + scan.clearedRays.size(),
               std::size_t{recorded->columnCount} * recorded->rowCount);
-    if (recorded->columnCount % (12 * 32) == 0)
+    if (recorded->columnCount % (12 * 32) == 0) {
         EXPECT_LE(scan.size() + scan.clearedRays.size(), recorded->columnCount);
+    }
 }
 
 TEST(ClearedRaysOfRotating, AReadingAtMaxRangeIsNoHit) {
@@ -211,7 +238,7 @@ TEST(ClearedRaysOfMaps, OptionsAndMaxRangeTellSharedSamplesApart) {
     off.considerInvalidRangesAsFreeSpace = false;
     EXPECT_TRUE(sharedSamplesOf(*o, {}, off)->clearedRays_sensor.empty());
     o->maxRange = 6;
-    EXPECT_EQ(sharedSamplesOf(*o, {}, {})->clearedRays_sensor.at(0).length_m, 3.F);
+    EXPECT_NE(sharedSamplesOf(*o, {}, {}), samples);
     hgmm::mrpt_bridge::forgetSharedSamples();
 }
 
@@ -233,7 +260,7 @@ TEST(ClearedRaysOfMaps, AScanOutOfRangeIsReportedOnce) {
 
 TEST(ClearedRaysOfMaps, BadOptionsAreRefused) {
     CHGMMOccupancyMap map;
-    map.insertionOptions.reading.clearedShareOfMaxRange = 1.5;
+    map.insertionOptions.reading.clearedShareOfRange = 1.5;
     EXPECT_THROW(map.insertObservation(*observations::laser()), std::invalid_argument);
 }
 

@@ -1,4 +1,9 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 #include "observation/scan_readers.h"
+#include "observation/sensor_range.h"
 
 using mrpt::obs::CObservation2DRangeScan;
 
@@ -27,6 +32,32 @@ class LaserRays {
     double direction_ = 1;
 };
 
+/// Readings of the rays that are valid, as far as the sensor sees; 0 of others [m].
+std::vector<double> validRanges(const CObservation2DRangeScan& o,
+                                const SensorRange& sensor) {
+    std::vector<double> ranges(o.getScanSize(), 0.0);
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+        const double range = o.getScanRange(i);
+        if (o.getScanRangeValidity(i) && range > 0)
+            ranges[i] = sensor.isReached(range) ? sensor.max() : range;
+    }
+    return ranges;
+}
+
+/// Clears what rays without return say. One that is flagged invalid may hold a range: of
+/// what is masked out or too near, which hides what is behind it.
+void clearNoReturns(const CObservation2DRangeScan& o, const LaserRays& rayAt,
+                    const SensorRange& sensor, double share, Scan& scan) {
+    const std::vector<double> valid = validRanges(o, sensor);
+    const std::vector<double> beside = rangesBeside(valid, sensor.max());
+    for (std::size_t i = 0; i < valid.size(); ++i) {
+        const double range = o.getScanRange(i);
+        if (valid[i] > 0 || (o.getScanRangeValidity(i) && std::isnan(range))) continue;
+        const double clear = share * beside[i];
+        sensor.clear(rayAt(i), range > 0 ? std::min(clear, range) : clear, scan);
+    }
+}
+
 }  // namespace
 
 bool readScan(const CObservation2DRangeScan& o, Channels channels,
@@ -38,20 +69,17 @@ bool readScan(const CObservation2DRangeScan& o, Channels channels,
     const SensorRange sensor(o.maxRange);
     for (std::size_t i = 0; i < rays; ++i) {
         const double range = o.getScanRange(i);
-        const bool isValid = o.getScanRangeValidity(i), hasRange = range > 0.0;
+        if (!o.getScanRangeValidity(i) || !(range > 0)) continue;
         const Eigen::Vector3d ray = rayAt(i);
-        if (isValid && sensor.isReached(range)) {
-            sensor.clearAll(ray, scan);
-        } else if (isValid && hasRange) {
+        if (sensor.isReached(range))
+            sensor.clear(ray, scan);
+        else
             writer.pushBack(static_cast<float>(range * ray.x()),
                             static_cast<float>(range * ray.y()),
                             static_cast<float>(range * ray.z()));
-        } else if (reading.considerInvalidRangesAsFreeSpace &&
-                   !(isValid && std::isnan(range))) {
-            sensor.clearShare(ray, reading, scan,
-                              hasRange ? range : std::numeric_limits<double>::infinity());
-        }
     }
+    if (reading.considerInvalidRangesAsFreeSpace)
+        clearNoReturns(o, rayAt, sensor, reading.clearedShareOfRange, scan);
     return true;
 }
 

@@ -3,6 +3,7 @@
 
 #include "observation/image_colour.h"
 #include "observation/scan_readers.h"
+#include "observation/sensor_range.h"
 
 using mrpt::obs::CObservation3DRangeScan;
 
@@ -50,7 +51,7 @@ void readPoints(const CObservation3DRangeScan& o, Channels channels, Scan& scan)
         if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) continue;
         const Eigen::Vector3d point(x, y, z);
         if (sensor.isReached(o.range_is_depth ? point.x() : point.norm())) {
-            sensor.clearAll(point, scan);
+            sensor.clear(point, scan);
             continue;
         }
         scan.pushBack(x, y, z);
@@ -101,7 +102,7 @@ bool readRanges(const CObservation3DRangeScan& o, Channels channels, Scan& scan)
             const double ky = rays.ky(row, col), kz = rays.kz(row, col);
             const double range = double(raw) * o.rangeUnits;
             if (sensor.isReached(range)) {
-                sensor.clearAll({1.0, ky, kz}, scan);
+                sensor.clear({1.0, ky, kz}, scan);
                 continue;
             }
             const double x =

@@ -1,8 +1,10 @@
 #include <mrpt/obs/VelodyneCalibration.h>
 
+#include <cmath>
 #include <vector>
 
 #include "observation/scan_readers.h"
+#include "observation/sensor_range.h"
 
 using mrpt::obs::CObservationRotatingScan;
 
@@ -67,39 +69,73 @@ bool wasFired(const CObservationRotatingScan& o, int col) {
     return false;
 }
 
-void readImage(const CObservationRotatingScan& o, const std::vector<double>& elevations,
-               Channels channels, const ReadingParams& reading, Scan& scan) {
+/// How far the sensor saw beside each pixel, row by row [m].
+std::vector<std::vector<double>> rangesBesidePixels(const CObservationRotatingScan& o,
+                                                    const SensorRange& sensor) {
+    std::vector<std::vector<double>> beside(o.rowCount);
+    for (int row = 0; row < o.rowCount; ++row) {
+        std::vector<double> ranges(o.columnCount);
+        for (int col = 0; col < o.columnCount; ++col)
+            ranges[col] = o.rangeImage(row, col) * o.rangeResolution;
+        beside[row] = rangesBeside(ranges, sensor.max());
+    }
+    return beside;
+}
+
+/// Where a pixel's point lies.
+class PixelPoints {
+ public:
+    PixelPoints(const CObservationRotatingScan& o, const std::vector<double>& elevations) {
+        const Azimuths azimuth = azimuths(o);
+        for (int col = 0; col < o.columnCount; ++col) {
+            const double angle = azimuth.first + col * azimuth.step;
+            columns_.push_back({std::cos(angle), std::sin(angle)});
+        }
+        for (const double angle : elevations)
+            rows_.push_back({std::cos(angle), std::sin(angle)});
+    }
+    Eigen::Vector3d at(int row, int col, double range) const {
+        const double flat = range * rows_[row].cosine;
+        return {flat * columns_[col].cosine, flat * columns_[col].sine,
+                range * rows_[row].sine};
+    }
+
+ private:
+    struct Angle {
+        double cosine, sine;
+    };
+    std::vector<Angle> rows_, columns_;
+};
+
+void clearNoReturns(const CObservationRotatingScan& o, const PixelPoints& points,
+                    const SensorRange& sensor, double share, Scan& scan) {
+    const auto beside = rangesBesidePixels(o, sensor);
+    for (int col = 0; col < o.columnCount; ++col) {
+        if (!wasFired(o, col)) continue;
+        for (int row = 0; row < o.rowCount; ++row)
+            if (o.rangeImage(row, col) == 0)
+                sensor.clear(points.at(row, col, 1.0), share * beside[row][col], scan);
+    }
+}
+
+void readImage(const CObservationRotatingScan& o, const PixelPoints& points,
+               const SensorRange& sensor, Channels channels, Scan& scan) {
     const bool bright =
         o.intensityImage.rows() == o.rowCount && o.intensityImage.cols() == o.columnCount;
-    const Azimuths azimuth = azimuths(o);
-    const SensorRange sensor(o.maxRange);
     ScanWriter writer(scan, bright ? channels : Channels::none, {"intensity"});
-    for (int col = 0; col < o.columnCount; ++col) {
-        const double angle = azimuth.first + col * azimuth.step;
-        const double c = std::cos(angle), s = std::sin(angle);
-        const auto pointAt = [&](double elevation, double range) -> Eigen::Vector3d {
-            const double flat = range * std::cos(elevation);
-            return {flat * c, flat * s, range * std::sin(elevation)};
-        };
-        const bool clears = reading.considerNoReturnsAsFreeSpace && wasFired(o, col);
+    for (int col = 0; col < o.columnCount; ++col)
         for (int row = 0; row < o.rowCount; ++row) {
             const auto raw = o.rangeImage(row, col);
-            if (raw == 0 && !clears) continue;
+            if (raw == 0) continue;
             const double range = raw * o.rangeResolution;
-            if (raw == 0) {
-                sensor.clearShare(pointAt(elevations[row], 1.0), reading, scan);
-            } else if (sensor.isReached(range)) {
-                sensor.clearAll(pointAt(elevations[row], 1.0), scan);
-            } else {
-                const Eigen::Vector3f p = pointAt(elevations[row], range).cast<float>();
-                if (bright)
-                    writer.pushBack(p.x(), p.y(), p.z(),
-                                    o.intensityImage(row, col) / 255.F);
-                else
-                    writer.pushBack(p.x(), p.y(), p.z());
-            }
+            const Eigen::Vector3f p = points.at(row, col, range).cast<float>();
+            if (sensor.isReached(range))
+                sensor.clear(points.at(row, col, 1.0), scan);
+            else if (bright)
+                writer.pushBack(p.x(), p.y(), p.z(), o.intensityImage(row, col) / 255.F);
+            else
+                writer.pushBack(p.x(), p.y(), p.z());
         }
-    }
 }
 
 }  // namespace
@@ -125,7 +161,11 @@ bool readScan(const CObservationRotatingScan& o, Channels channels,
             "HDL-32E are known. Convert it to CObservationPointCloud.");
         return false;
     }
-    readImage(o, elevations, channels, reading, scan);
+    const PixelPoints points(o, elevations);
+    const SensorRange sensor(o.maxRange);
+    readImage(o, points, sensor, channels, scan);
+    if (reading.considerNoReturnsAsFreeSpace)
+        clearNoReturns(o, points, sensor, reading.clearedShareOfRange, scan);
     return true;
 }
 

@@ -6,11 +6,8 @@
 #include <mrpt/obs/CObservationRotatingScan.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
-#include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <limits>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -66,42 +63,6 @@ std::mutex& externalStorageMutex();
 
 /// Prints a message on stderr the first time that it is given.
 void warnOnce(const std::string& message);
-
-/// The readings of a sensor that knows how far it sees.
-class SensorRange {
- public:
-    /// @param maxRange_m one that is not positive and finite is not known: no reading is
-    /// beyond it, and rays without return clear nothing
-    explicit SensorRange(double maxRange_m)
-        : maxRange_(maxRange_m > 0 && std::isfinite(maxRange_m) ? maxRange_m : 0) {}
-
-    /// Whether a reading says that nothing is nearer than the sensor sees.
-    bool isReached(double range_m) const {
-        constexpr double tolerance = 1e-4;  // [maxRange]
-        return maxRange_ > 0 && range_m >= (1 - tolerance) * maxRange_;
-    }
-    /// Adds a ray whose reading is at the end of what the sensor sees.
-    /// @param direction in the sensor frame, of any length
-    void clearAll(const Eigen::Vector3d& direction, Scan& scan) const {
-        clear(direction, maxRange_, scan);
-    }
-    /// Adds a ray without return.
-    /// @param most it clears no farther [m]
-    void clearShare(const Eigen::Vector3d& direction, const ReadingParams& reading,
-                    Scan& scan,
-                    double most = std::numeric_limits<double>::infinity()) const {
-        clear(direction, std::min(reading.clearedShareOfMaxRange * maxRange_, most), scan);
-    }
-
- private:
-    static void clear(const Eigen::Vector3d& direction, double length, Scan& scan) {
-        if (length > 0 && direction.allFinite())
-            scan.clearedRays.push_back(
-                {direction.normalized().cast<float>(), static_cast<float>(length)});
-    }
-
-    double maxRange_;  // [m]; 0 if not known
-};
 
 /// Fills a scan point by point, dropping those that are not finite, with their channel
 /// values.

@@ -14,8 +14,8 @@ const OptionTable<ReadingParams>& ReadingParams::options() {
          "planar lasers: rays flagged invalid, or without range, clear space"},
         {"considerNoReturnsAsFreeSpace", &P::considerNoReturnsAsFreeSpace,
          "rotating lidars: rays without return clear space"},
-        {"clearedShareOfMaxRange", &P::clearedShareOfMaxRange, "1", 0, 1,
-         "how far such rays clear space, as a share of the sensor's maximum range"}};
+        {"clearedShareOfRange", &P::clearedShareOfRange, "1", 0, 1,
+         "how far such rays clear space, as a share of the range seen beside them"}};
     return table;
 }
 

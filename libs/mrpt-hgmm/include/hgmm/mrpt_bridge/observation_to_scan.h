@@ -52,8 +52,9 @@ inline Channels channelsFor(const MapParams& params) {
 /// | CObservationRotatingScan | range 0 in a column that has others | up to maxRange |
 /// | CObservationPointCloud, CObservationVelodyneScan | not told | points as others |
 ///
-/// A ray that is flagged invalid clears no farther than the range that it holds, if any:
-/// what is masked out or too near hides what is behind it.
+/// Rays without return clear a share of the range seen beside them; those flagged invalid
+/// no farther than the range that they hold, if any: what is masked out or too near hides
+/// what is behind it.
 ///
 /// A channel value that is NaN was not measured. The image of a 3D range scan gives points
 /// the colour of their pixel if both cameras coincide and the images have the same size;

@@ -12,8 +12,11 @@ struct ReadingParams {
     /// Whether rays of rotating lidars without return clear space: they may have met
     /// something dark, wet or too near as well as the sky.
     bool considerNoReturnsAsFreeSpace = false;
-    /// How far such rays clear space [sensor's maxRange], 0 to 1.
-    double clearedShareOfMaxRange = 0.5;
+    /// How far such rays clear space: share of the range seen beside them, in the row of
+    /// rays, or of the sensor's maxRange where no ray has a return [1], 0 to 1. As MRPT's
+    /// grid map has it: half of maxRange would reach through the walls of most rooms, and
+    /// dark patches of walls do not return anything either.
+    double clearedShareOfRange = 0.5;
 
     /// Throws std::invalid_argument naming the field.
     void validate() const;
