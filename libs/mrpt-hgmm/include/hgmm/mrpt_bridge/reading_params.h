@@ -13,9 +13,9 @@ struct ReadingParams {
     /// something dark, wet or too near as well as the sky.
     bool considerNoReturnsAsFreeSpace = false;
     /// How far such rays clear space: share of the range seen beside them, in the row of
-    /// rays, or of the sensor's maxRange where no ray has a return [1], 0 to 1. As MRPT's
-    /// grid map has it: half of maxRange would reach through the walls of most rooms, and
-    /// dark patches of walls do not return anything either.
+    /// rays, or of the sensor's maxRange where no ray has a return [1], 0 to 1. (MRPT's
+    /// grid map takes the last valid range.) Half of maxRange would reach through the walls
+    /// of most rooms, where dark patches do not return anything either.
     double clearedShareOfRange = 0.5;
 
     /// Throws std::invalid_argument naming the field.
