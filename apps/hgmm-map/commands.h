@@ -58,6 +58,15 @@ struct MergeOptions {
 /// other was put. Throws std::runtime_error if a refined pose is not to be trusted.
 void merge(const MergeOptions& options);
 
+struct ForgetOptions {
+    std::string mapFile, output;
+    std::vector<double> box;  ///< x0, y0, z0, x1, y1, z1 [m], in the map frame
+};
+
+/// `hgmm-map forget`: writes the map without its surfaces in a box, and prints how many
+/// components that were. Throws std::runtime_error for a box that is empty or not finite.
+void forget(const ForgetOptions& options);
+
 struct ExportOptions {
     std::string mapFile, output;
     std::string format;  ///< "ply", "3Dscene", "png", "bt", "ot" or "yaml"

@@ -81,6 +81,21 @@ CLI::App* defineMerge(CLI::App& app, maptool::MergeOptions& merging) {
     return merge;
 }
 
+CLI::App* defineForget(CLI::App& app, maptool::ForgetOptions& forgetting) {
+    CLI::App* forget = app.add_subcommand(
+        "forget", "Remove the surfaces in a box: what is known to be gone");
+    forget->add_option("IN", forgetting.mapFile, "Saved map")->required();
+    forget->add_option("OUT", forgetting.output, "Output file (.hgmm)")->required();
+    forget
+        ->add_option("--box", forgetting.box,
+                     "Lowest and highest corner [m], in the map frame")
+        ->required()
+        ->delimiter(',')
+        ->expected(6)
+        ->type_name("X0,Y0,Z0,X1,Y1,Z1");
+    return forget;
+}
+
 CLI::App* defineOptions(CLI::App& app, maptool::OptionsOptions& listing) {
     CLI::App* options = app.add_subcommand(
         "options", "Print the options that a configuration can set, with their defaults");
@@ -111,6 +126,8 @@ int main(int argc, char** argv) {
     const CLI::App* raycast = defineRaycast(app, casting);
     maptool::MergeOptions merging;
     const CLI::App* merge = defineMerge(app, merging);
+    maptool::ForgetOptions forgetting;
+    const CLI::App* forget = defineForget(app, forgetting);
     maptool::ExportOptions exporting;
     const CLI::App* exports = maptool::defineExport(app, exporting);
 
@@ -128,6 +145,7 @@ int main(int argc, char** argv) {
         if (*query) maptool::query(querying);
         if (*raycast) maptool::raycast(casting);
         if (*merge) maptool::merge(merging);
+        if (*forget) maptool::forget(forgetting);
         if (*exports) maptool::exportMap(exporting);
         if (*options) maptool::printOptions(listing);
     } catch (const std::exception& e) {

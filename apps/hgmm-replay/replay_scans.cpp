@@ -137,7 +137,8 @@ Replayed replayScans(Recording& recording, mrpt::maps::CHGMMOccupancyMap::Ptr ma
         const Clock::time_point start = Clock::now();
         std::optional<hgmm::Scan> scan = hgmm::mrpt_bridge::observationToScan(
             *recorded->observation, recorded->T_map_robot,
-            hgmm::mrpt_bridge::channelsFor(replayed.map->insertionOptions.params));
+            hgmm::mrpt_bridge::channelsFor(replayed.map->insertionOptions.params),
+            replayed.map->insertionOptions.reading);
         replayed.conversion_ms.push_back(millisecondsSince(start));
         if (scan) {
             points += scan->size();

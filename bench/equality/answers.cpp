@@ -200,13 +200,12 @@ void addInsertions(Dump& dump, const hgmm::MapParams& params,
         // By place, for their names are not the same in both trees.
         const auto [points, samples, novel, updated, added, seenThrough, outgrown,
                     removed] = map.insert(scan);
-        const auto [used, notFinite, outOfRange] = points;
-        values.insert(values.end(), {used, notFinite, outOfRange, samples, novel, updated,
+        values.insert(values.end(), {points.used, points.notFinite, samples, novel, updated,
                                      added, seenThrough, outgrown, removed});
     }
     dump.add("reports of insertion", Kind::answers, "scan",
-             {"used", "not finite", "out of range", "samples", "novel", "updated", "added",
-              "seen through", "outgrown", "removed"},
+             {"used", "not finite", "samples", "novel", "updated", "added", "seen through",
+              "outgrown", "removed"},
              values);
     addComponents(dump, "map of inserted scans: ", map);
 }

@@ -35,6 +35,7 @@ class ImportRawlog : public ImportTest {
             scan.aperture = 1.5F;
             scan.resizeScanAndAssign(11, 2.F + float(i), true);
             scan.setScanRangeValidity(4, false);
+            scan.maxRange = 12.5F;
             if (!clouds) archive << scan;
             if (!clouds && i > 0) continue;
             mrpt::obs::CObservationPointCloud cloud;
@@ -60,6 +61,7 @@ TEST_F(ImportRawlog, ApertureIsPutRightAndOdometryBecomesPoses) {
         EXPECT_EQ(scan.getScanRange(3), 2.F + float(i));
         EXPECT_TRUE(scan.getScanRangeValidity(3));
         EXPECT_FALSE(scan.getScanRangeValidity(4));
+        EXPECT_EQ(scan.maxRange, 12.5F);
         EXPECT_LT(import_test::poseDistance(
                       poses()[std::size_t(i)].T_world_frame,
                       import_test::toPose(mrpt::poses::CPose3D(robotAt(i)))),

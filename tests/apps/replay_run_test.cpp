@@ -141,3 +141,13 @@ TEST_F(Replay, TheTelecomLogReplaysOnItsOdometry) {
               225);
     EXPECT_EQ(json["dataset"]["sensor"], "mrpt::obs::CObservation2DRangeScan");
 }
+
+TEST_F(Replay, ScansOutOfRangeAreReportedOnce) {
+    std::ofstream(path("near.ini")) << "[map]\nhgmmMap_count=1\n"
+                                       "[map_hgmmMap_00_insertOpts]\nmaxRange_m = 0.2\n";
+    const Outcome outcome =
+        replay(recordRoom(4, 500) + " --config " + path("near.ini") + " --quiet");
+    const std::string text = "all points of a scan are farther than maxRange_m = 0.2";
+    expectHas(outcome.err, text);
+    EXPECT_EQ(outcome.err.find(text), outcome.err.rfind(text)) << outcome.err;
+}

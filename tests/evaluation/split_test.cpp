@@ -53,6 +53,20 @@ TEST(Split, RefusesValuesThatMeanNothing) {
     EXPECT_NO_THROW(SplitParams{}.validate());
 }
 
+TEST(Split, ClearedRaysGoToTheMap) {
+    hgmm::Scan scan = numberedScan(100);
+    scan.clearedRays = {{Eigen::Vector3f::UnitX(), 2.F}, {Eigen::Vector3f::UnitZ(), 3.F}};
+    SplitParams split;
+    for (const double share : {0.0, 0.3}) {
+        split.holdoutPoints = share;
+        split.subsample = 1.0 - share;
+        const SplitScan parts = splitPoints(scan, 1, split);
+        ASSERT_EQ(parts.mapping.clearedRays.size(), 2U);
+        EXPECT_EQ(parts.mapping.clearedRays[1].length_m, 3.F);
+        EXPECT_TRUE(parts.heldOut.clearedRays.empty());
+    }
+}
+
 TEST(Split, ChosenIndicesAreDistinctRisingAndOfTheRightNumber) {
     const auto chosen = chooseIndices(1000, 137, 7, 3, Draw::queries);
     ASSERT_EQ(chosen.size(), 137U);

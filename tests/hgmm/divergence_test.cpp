@@ -200,6 +200,53 @@ TEST(KlDivergence, GapOfGoldbergersApproximation) {
     RecordProperty("largest_gap_nat", std::to_string(largest));
 }
 
+TEST(SampledKlDivergence, OfGaussiansIsAnalytic) {
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        const Mixture<3> f = randomMixture<3>(seed, 1), g = randomMixture<3>(seed + 50, 1);
+        const SampledDivergence kl = sampledKlDivergence(f, g, 20000, seed);
+        EXPECT_NEAR(kl.value, klDivergence(f[0], g[0]), 5 * kl.error) << "seed " << seed;
+        EXPECT_GT(kl.error, 0);
+        EXPECT_LT(kl.error, 0.2 * klDivergence(f[0], g[0]));
+    }
+}
+
+TEST(SampledKlDivergence, OfMixturesIsThatOfADenseSum) {
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        const Mixture<3> p = randomMixture<3>(seed, 8), q = randomMixture<3>(seed + 70, 3);
+        const Density<3> logP(p), logQ(q);
+        const Estimate truth = monteCarlo(
+            p, seed + 9, [&](const float* x) { return logP.log(x) - logQ.log(x); });
+        const SampledDivergence kl = sampledKlDivergence(p, q, 20000, seed);
+        EXPECT_NEAR(kl.value, truth.mean, 5 * std::hypot(kl.error, truth.error));
+    }
+}
+
+/// Halves of one Gaussian, merged: the mixtures hardly differ, and Goldberger's value is
+/// below zero.
+TEST(SampledKlDivergence, IsNotNegativeWhereGoldbergersIs) {
+    Mixture<3> p, q;
+    for (const double x : {-0.05, 0.05})
+        p.pushBack({1, {x, 0, 0}, Gaussian<3>::Matrix::Identity()});
+    q.pushBack(mergeMoments(p[0], p[1]));
+    ASSERT_LT(klDivergence(p, q), -0.6);
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        const SampledDivergence kl = sampledKlDivergence(p, q, 500, seed);
+        EXPECT_GE(kl.value, 0);
+        EXPECT_LT(kl.value, 1e-3);
+    }
+    EXPECT_EQ(sampledKlDivergence(p, p, 500, 1).value, 0);
+}
+
+TEST(SampledKlDivergence, IsFiniteFarApartAndReproducible) {
+    Mixture<3> p, q;
+    p.pushBack({1, {0, 0, 0}, 1e-4 * Gaussian<3>::Matrix::Identity()});
+    q.pushBack({1, {10, 0, 0}, 1e-4 * Gaussian<3>::Matrix::Identity()});
+    const SampledDivergence kl = sampledKlDivergence(p, q, 1000, 3);
+    EXPECT_NEAR(kl.value, 0.5 * 100 / 1e-4, 5 * kl.error);
+    EXPECT_EQ(sampledKlDivergence(p, q, 1000, 3).value, kl.value);
+    EXPECT_NE(sampledKlDivergence(p, q, 1000, 4).value, kl.value);
+}
+
 /// Eq. (3.17) / 2 by Monte-Carlo: <p,q> = E_p[q], <p,p> = E_p[p], <q,q> = E_q[q].
 TEST(CauchySchwarz, MatchesMonteCarlo) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
@@ -246,6 +293,9 @@ TEST(Divergence, OfNothingThrows) {
     EXPECT_THROW(klDivergence(none, some), std::invalid_argument);
     EXPECT_THROW(cauchySchwarzDivergence(none, some), std::invalid_argument);
     EXPECT_THROW(cauchySchwarzDivergence(some, none), std::invalid_argument);
+    EXPECT_THROW(sampledKlDivergence(some, none, 10, 1), std::invalid_argument);
+    EXPECT_THROW(sampledKlDivergence(none, some, 10, 1), std::invalid_argument);
+    EXPECT_THROW(sampledKlDivergence(some, some, 1, 1), std::invalid_argument);
 }
 
 }  // namespace

@@ -98,7 +98,8 @@ TEST(Filter, CountsAndDropsWhatIsNoMeasurement) {
     samples.check();
     EXPECT_EQ(samples.size(), 1U);
     EXPECT_EQ(counts.notFinite, 3U);
-    EXPECT_EQ(counts.outOfRange, 3U);
+    EXPECT_EQ(counts.tooNear, 1U);
+    EXPECT_EQ(counts.cut, 2U);
     EXPECT_EQ(counts.used, 1U);
 }
 

@@ -113,10 +113,10 @@ TEST(Map, HostileScansLoseNothing) {
     Scan useless;
     useless.pushBack(nan, 0, 0);
     useless.pushBack(0, 0, 0);
-    useless.pushBack(1e6F, 0, 0);
+    useless.pushBack(0.01F, 0, 0);
     const InsertReport report = map.insert(useless);
     EXPECT_EQ(report.points.notFinite, 1U);
-    EXPECT_EQ(report.points.outOfRange, 2U);
+    EXPECT_EQ(report.points.tooNear, 2U);
     EXPECT_EQ(map.save(), before);
 
     Scan torn = useless;

@@ -94,20 +94,20 @@ TEST(Oversized, RaysOfPlanarLasersHaveANormal) {
             g.covariance = 1e-4 * Eigen::Matrix3d::Identity();
             samples.pushBack(g);
         }
-        return normalOfRays(samples);
+        return normalOfRays(samples, {});
     };
     EXPECT_GT(std::abs(found(3.14, 0.0).dot(normal)), 1 - 1e-9);
     EXPECT_GT(std::abs(found(1.0, 0.005).dot(normal)), 1 - 1e-4);
     EXPECT_EQ(found(3.14, 0.1), Eigen::Vector3d::Zero().eval()) << "a lidar of some rows";
     EXPECT_EQ(found(0.1, 0.0), Eigen::Vector3d::Zero().eval()) << "any plane along them";
-    EXPECT_EQ(normalOfRays({}), Eigen::Vector3d::Zero().eval());
+    EXPECT_EQ(normalOfRays({}, {}), Eigen::Vector3d::Zero().eval());
     Mixture<3> atSensor;
     Gaussian<3> g;
     g.support = 1;
     g.mean.setZero();
     g.covariance.setIdentity();
     atSensor.pushBack(g);
-    EXPECT_EQ(normalOfRays(atSensor), Eigen::Vector3d::Zero().eval());
+    EXPECT_EQ(normalOfRays(atSensor, {}), Eigen::Vector3d::Zero().eval());
 }
 
 /// Samples of 1 cm at these places, seen from the origin.

@@ -33,6 +33,7 @@ using Values = std::map<std::string, Value>;
 template <typename Visitor>
 void visitAll(CHGMMOccupancyMap::TInsertionOptions& options, Visitor&& visit) {
     ::hgmm::forEachOption(options.params, visit);
+    ::hgmm::forEachRow(options.reading, visit);
 }
 template <typename Options, typename Visitor>
 void visitAll(Options& options, Visitor&& visit) {
@@ -82,6 +83,7 @@ inline void change(CHGMMOccupancyMap& map) {
     change(map.likelihoodOptions);
     change(map.renderOptions);
     map.insertionOptions.params.validate();
+    map.insertionOptions.reading.validate();
     map.likelihoodOptions.validate();
     map.renderOptions.validate();
     map.genericMapParams.enableObservationInsertion = false;

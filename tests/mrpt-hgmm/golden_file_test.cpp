@@ -135,6 +135,7 @@ void expectLogDensity(const hgmm::Map& map, const std::vector<double>& answer) {
 void forgetYoungOptions(CHGMMOccupancyMap& map) {
     map.likelihoodOptions.independentPoints = hgmm::mrpt_bridge::kMaxPoints;
     map.insertionOptions.params.novelty.maxThickness = hgmm::NoveltyParams().maxThickness;
+    map.insertionOptions.reading = {};
 }
 
 TEST(GoldenFile, MapOfVersion0LoadsAndAnswersAsEver) {

@@ -109,14 +109,14 @@ TEST(MapInsertion, WhatIsNotUnderstoodTouchesNothing) {
 TEST(MapInsertion, SharedSamplesOutliveOtherObservations) {
     const auto scan = observations::laser();
     const hgmm::MapParams params;
-    const auto samples = hgmm::mrpt_bridge::sharedSamplesOf(*scan, params);
+    const auto samples = hgmm::mrpt_bridge::sharedSamplesOf(*scan, params, {});
     ASSERT_TRUE(samples);
     for (int i = 0; i < 9; ++i)
-        EXPECT_FALSE(
-            hgmm::mrpt_bridge::sharedSamplesOf(mrpt::obs::CObservationOdometry(), params));
-    EXPECT_EQ(hgmm::mrpt_bridge::sharedSamplesOf(*scan, params), samples);
+        EXPECT_FALSE(hgmm::mrpt_bridge::sharedSamplesOf(mrpt::obs::CObservationOdometry(),
+                                                        params, {}));
+    EXPECT_EQ(hgmm::mrpt_bridge::sharedSamplesOf(*scan, params, {}), samples);
     hgmm::mrpt_bridge::forgetSharedSamples();
-    EXPECT_NE(hgmm::mrpt_bridge::sharedSamplesOf(*scan, params), samples);
+    EXPECT_NE(hgmm::mrpt_bridge::sharedSamplesOf(*scan, params, {}), samples);
 }
 
 // What is made of an observation is shared by all maps of the process: by particles.

@@ -96,6 +96,10 @@ class ModalityTrial {
     }
     void markInterrupted() { findings_.run.interrupted = true; }
 
+    const hgmm::mrpt_bridge::ReadingParams& reading() const {
+        return coloured_->insertionOptions.reading;
+    }
+
     /// The scan in the middle by a map of its own, in its sensor's frame.
     ModalityView viewOfScan() const {
         hgmm::Scan scan = middle_;
@@ -204,8 +208,9 @@ void modalityStudy(Recording& recording, const Options& options) {
     ModalityTrial study(recording, options);
     Progress progress(recording.size(), options.quiet);
     while (const auto recorded = recording.next()) {
-        auto scan = hgmm::mrpt_bridge::observationToScan(*recorded->observation,
-                                                         recorded->T_map_robot);
+        auto scan = hgmm::mrpt_bridge::observationToScan(
+            *recorded->observation, recorded->T_map_robot, hgmm::mrpt_bridge::Channels::all,
+            study.reading());
         if (scan) study.add(std::move(*scan), recorded->index);
         progress.advance();
         if (!interrupted()) continue;

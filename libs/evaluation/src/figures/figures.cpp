@@ -22,7 +22,8 @@ std::optional<OccupancyFigures> occupancyOf(const BatchQuery& query,
 
 }  // namespace
 
-std::vector<LevelFigures> levelFigures(const Map& map, const TestPoints& testPoints) {
+std::vector<LevelFigures> levelFigures(const Map& map, const TestPoints& testPoints,
+                                       std::uint64_t seed) {
     std::vector<LevelFigures> figures;
     if (map.empty()) return figures;
     const Mixture<3>& base = map.mixture(0);
@@ -33,7 +34,9 @@ std::vector<LevelFigures> levelFigures(const Map& map, const TestPoints& testPoi
         f.components = mixture.size();
         f.componentsFree = map.freeMixture(level).size();
         f.bytes = levelBytes(map, level);
-        if (level > 0) f.klToLevel0 = klDivergence(base, mixture);
+        if (level > 0)
+            f.klToLevel0 =
+                sampledKlDivergence(base, mixture, kDivergencePoints, seed).value;
         if (const auto occupancy = occupancyOf(queryOf(map, level), testPoints)) {
             f.aucUniform = occupancy->aucUniform;
             f.aucNear = occupancy->aucNear;
@@ -50,7 +53,7 @@ MapFigures evaluateMap(const Map& built, const TestPoints& testPoints, std::uint
     forEachNumber(map.params(), [&](const OptionRow& row, auto value) {
         figures.options.emplace_back(row.name, static_cast<double>(value));
     });
-    figures.levels = levelFigures(map, testPoints);
+    figures.levels = levelFigures(map, testPoints, seed);
     figures.memory = memoryOf(built);
     if (map.empty() || testPoints.empty()) return figures;
     figures.occupancy = occupancyOf(queryOf(map), testPoints);

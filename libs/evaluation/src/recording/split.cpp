@@ -91,6 +91,7 @@ Scan selectPoints(const Scan& scan, const std::vector<std::size_t>& indices) {
 
 SplitScan splitPoints(Scan scan, std::size_t scanIndex, const SplitParams& params) {
     SplitScan result;
+    std::vector<ClearedRay> clearedRays = std::move(scan.clearedRays);
     if (params.holdoutPoints > 0.0) {
         const auto heldOut =
             chooseIndices(scan.size(), countOf(params.holdoutPoints, scan.size()),
@@ -103,6 +104,7 @@ SplitScan splitPoints(Scan scan, std::size_t scanIndex, const SplitParams& param
             scan, chooseIndices(scan.size(), countOf(params.subsample, scan.size()),
                                 params.seed, scanIndex, Draw::subsample));
     result.mapping = std::move(scan);
+    result.mapping.clearedRays = std::move(clearedRays);
     return result;
 }
 

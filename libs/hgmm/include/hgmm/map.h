@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -84,6 +85,14 @@ class HGMM_EXPORT Map {
     /// Throws std::invalid_argument for a pose that is not finite or not rigid; nothing
     /// is changed then.
     void merge(const Map& other, const Pose& T_this_other = {});
+
+    /// Removes the surface components of the base level whose means lie in a box, its faces
+    /// included: for what a user knows to be gone. Free space and modalities stay.
+    /// @param box_map in the map frame [m]
+    /// @return how many were removed
+    /// Throws std::invalid_argument for a box that is empty (a corner `min` above `max`) or
+    /// not finite; nothing is changed then.
+    std::size_t forget(const Eigen::AlignedBox3d& box_map);
 
     bool empty() const;
     void clear();

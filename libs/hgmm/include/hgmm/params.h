@@ -16,9 +16,11 @@ struct FilterParams {
     /// Leaf edge at range 1 m [m], > 0. The map's other lengths have a ratio to it
     /// (MapParams::setResolution); assigning this field changes none of them.
     double resolution_m = 0.04;
-    double minLeaf_m = 0.01;       ///< smallest leaf edge [m], > 0
-    double minRange_m = 0.1;       ///< nearer points are dropped [m], >= 0
-    double maxRange_m = 300.0;     ///< farther points are dropped [m], >= minRange_m
+    double minLeaf_m = 0.01;  ///< smallest leaf edge [m], > 0
+    double minRange_m = 0.1;  ///< nearer points are dropped [m], >= 0
+    /// Farther points are no surfaces; their rays clear space up to here [m],
+    /// >= minRange_m.
+    double maxRange_m = 300.0;
     double noiseStd_m = 0.003;     ///< range noise at range 0, one sigma [m], > 0
     double noisePerRange = 0.001;  ///< its growth with range [m/m], >= 0
 

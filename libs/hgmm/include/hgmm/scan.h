@@ -25,17 +25,27 @@ struct Channel {
     std::vector<float> values;  ///< one per point; colours and intensity in [0, 1]
 };
 
+/// A ray that saw nothing up to some range: it clears space from the sensor on and marks
+/// nothing at its end.
+struct ClearedRay {
+    Eigen::Vector3f direction;  ///< in the sensor frame, unit to 1e-3
+    float length_m = 0;         ///< how far it clears [m], >= 0
+};
+
 /// What one sensor saw from one place. Rays start at the origin of the sensor frame.
 struct Scan {
     std::vector<float> x, y, z;     ///< points in the sensor frame [m]
     std::vector<Channel> channels;  ///< may be empty
     Pose T_map_sensor;              ///< pose of the sensor in the map frame
+    /// Rays without a point: of no return, or of one too far to be trusted.
+    std::vector<ClearedRay> clearedRays;
 
     std::size_t size() const { return x.size(); }
     HGMM_EXPORT void reserve(std::size_t n);
     HGMM_EXPORT void pushBack(float px, float py, float pz);
-    /// Throws std::invalid_argument if x, y, z or a channel differ in length, or the pose
-    /// is not finite or its rotation not orthonormal to 1e-4. Points need not be finite:
+    /// Throws std::invalid_argument if x, y, z or a channel differ in length, the pose is
+    /// not finite or its rotation not orthonormal to 1e-4, or a cleared ray's direction is
+    /// not unit to 1e-3 or its length negative or not finite. Points need not be finite:
     /// the filter counts and drops those that are not.
     HGMM_EXPORT void validate() const;
 };
@@ -44,7 +54,9 @@ struct Scan {
 struct FilterCounts {
     std::size_t used = 0;
     std::size_t notFinite = 0;
-    std::size_t outOfRange = 0;  ///< nearer than minRange_m or farther than maxRange_m
+    std::size_t tooNear = 0;  ///< nearer than minRange_m: dropped
+    /// Farther than maxRange_m: no hits, but samplesOf makes cleared rays of them.
+    std::size_t cut = 0;
 };
 
 /// Reduces a scan to samples in the sensor frame: one for each occupied leaf
@@ -66,6 +78,10 @@ struct ScanSamples {
     /// (interpolateRings).
     Mixture<3> samples_sensor;
     FilterCounts points;  ///< that the filter kept and dropped
+    /// Rays that clear space and mark nothing at their end: those of the points beyond
+    /// maxRange_m and Scan::clearedRays, both cut there. Of rays that end in one leaf of
+    /// the filter only the first is here; the order is that of points, then of rays.
+    std::vector<ClearedRay> clearedRays_sensor;
     /// Unit normal of the plane that holds all rays, as those of a planar laser; zero where
     /// there is none. Without it, the ends of a planar laser's walls pass for surfaces
     /// across its plane.

@@ -17,7 +17,8 @@ const OptionTable<FilterParams>& FilterParams::options() {
         Option<P>("minLeaf_m", &P::minLeaf_m, "m", 1e-4, 100, "smallest leaf edge")
             .followsResolution(),
         {"minRange_m", &P::minRange_m, "m", 0, 1e5, "nearer points are dropped"},
-        Option<P>("maxRange_m", &P::maxRange_m, "m", 0, 1e5, "farther points are dropped")
+        Option<P>("maxRange_m", &P::maxRange_m, "m", 0, 1e5,
+                  "farther points are no surfaces; their rays clear space up to here")
             .basic()
             .notBelow("minRange_m"),
         Option<P>("noiseStd_m", &P::noiseStd_m, "m", 1e-4, 10,

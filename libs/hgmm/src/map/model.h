@@ -20,7 +20,10 @@ struct Model {
     Modalities modalities;
 
     /// Whether the local frame may still be anywhere.
-    bool isBlank() const { return components.empty() && modalities.groups().empty(); }
+    bool isBlank() const {
+        return components.empty() && freeSpace.mixture().empty() &&
+               modalities.groups().empty();
+    }
     bool operator==(const Model& o) const;
 };
 

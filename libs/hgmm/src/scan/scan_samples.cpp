@@ -2,11 +2,13 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "scan/cleared_rays.h"
 #include "scan/ring_interpolation.h"
 
 namespace hgmm {
 
-Eigen::Vector3d normalOfRays(const Mixture<3>& samples_sensor) {
+Eigen::Vector3d normalOfRays(const Mixture<3>& samples_sensor,
+                             const std::vector<ClearedRay>& clearedRays_sensor) {
     constexpr double kMaxSlope = 0.01, kLeastRaySpread = 10 * kMaxSlope;
     Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
     double rays = 0;
@@ -16,6 +18,11 @@ Eigen::Vector3d normalOfRays(const Mixture<3>& samples_sensor) {
         const double squared = ray.squaredNorm();
         if (!(squared > 0)) continue;
         scatter += ray * ray.transpose() / squared;
+        rays += 1;
+    }
+    for (const ClearedRay& ray : clearedRays_sensor) {
+        const Eigen::Vector3d direction = ray.direction.cast<double>();
+        scatter += direction * direction.transpose();
         rays += 1;
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter);
@@ -32,8 +39,11 @@ ScanSamples samplesOf(const Scan& scan, const MapParams& params) {
     params.cells.validate();
     ScanSamples result;
     result.samples_sensor = filterScan(scan, params.filter, &result.points);
+    if (result.points.cut > 0 || !scan.clearedRays.empty())
+        result.clearedRays_sensor = clearedRaysOf(scan, params.filter);
     interpolateRings(result.samples_sensor, params.cells);
-    result.normalOfRays_sensor = normalOfRays(result.samples_sensor);
+    result.normalOfRays_sensor =
+        normalOfRays(result.samples_sensor, result.clearedRays_sensor);
     return result;
 }
 

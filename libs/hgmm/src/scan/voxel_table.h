@@ -1,7 +1,7 @@
 #pragma once
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -82,15 +82,42 @@ inline std::uint64_t leafKey(int octave, Float4 point) {
            std::uint64_t(index[1]) << kIndexBits | std::uint64_t(index[2]);
 }
 
+/// The octave of a leaf's edge by the squared range of its points.
+class LeafOctave {
+ public:
+    explicit LeafOctave(const FilterParams& params)
+        : resolution4_(fourthPower(params.resolution_m)),
+          minLeaf4_(fourthPower(params.minLeaf_m)) {}
+
+    /// @param range2 [m^2]
+    int operator()(float range2) const {
+        // An edge of c sqrt(r) has the octave of its fourth power c^4 r^2, divided by four.
+        return octaveOf(std::max(minLeaf4_, resolution4_ * range2)) >> 2;
+    }
+
+ private:
+    static float fourthPower(double v) { return static_cast<float>(v * v * v * v); }
+
+    float resolution4_, minLeaf4_;  // [m^4]
+};
+
+/// Counts a point that is not in range.
+inline void countDropped(const Eigen::Vector3f& point, float range2, float maxRange2,
+                         FilterCounts& counted) {
+    if (!point.allFinite())
+        ++counted.notFinite;
+    else if (range2 > maxRange2)
+        ++counted.cut;
+    else
+        ++counted.tooNear;
+}
+
 /// The leaves of the points that are in range, each with its sums.
 /// @param add add(sums, i, dx, dy, dz) adds point i, so far from the anchor [m]
 template <typename Sums, typename Add>
 VoxelTable<Sums> sumLeaves(const Scan& scan, const FilterParams& params,
                            FilterCounts& counted, Add&& add) {
-    // An edge of c sqrt(r) has the octave of its fourth power c^4 r^2, divided by four.
-    const auto fourthPower = [](double v) { return static_cast<float>(v * v * v * v); };
-    const float resolution4 = fourthPower(params.resolution_m);
-    const float minLeaf4 = fourthPower(params.minLeaf_m);
+    const LeafOctave octaveAt(params);
     const auto minRange2 = static_cast<float>(params.minRange_m * params.minRange_m);
     const auto maxRange2 = static_cast<float>(params.maxRange_m * params.maxRange_m);
     VoxelTable<Sums> table(scan.size());
@@ -101,12 +128,10 @@ VoxelTable<Sums> sumLeaves(const Scan& scan, const FilterParams& params,
         const float x = scan.x[i], y = scan.y[i], z = scan.z[i];
         const float range2 = x * x + y * y + z * z;
         if (!(range2 >= minRange2 && range2 <= maxRange2) || range2 == 0.F) {
-            const bool finite = std::isfinite(x) && std::isfinite(y) && std::isfinite(z);
-            ++(finite ? counted.outOfRange : counted.notFinite);
+            countDropped({x, y, z}, range2, maxRange2, counted);
             continue;
         }
-        const int octave = octaveOf(std::max(minLeaf4, resolution4 * range2)) >> 2;
-        const std::uint64_t key = leafKey(octave, Float4{x, y, z, 0.F});
+        const std::uint64_t key = leafKey(octaveAt(range2), Float4{x, y, z, 0.F});
         if (key != current) {
             current = key;
             leaf = &table.find(key, x, y, z);

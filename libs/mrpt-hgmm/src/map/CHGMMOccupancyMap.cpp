@@ -12,6 +12,7 @@
 #include "map/map_archive.h"
 #include "observation/shared_samples.h"
 #include "options/modality_warnings.h"
+#include "options/range_warning.h"
 
 namespace bridge = ::hgmm::mrpt_bridge;
 
@@ -40,7 +41,15 @@ void CHGMMOccupancyMap::applyInsertionOptions() {
 ::hgmm::InsertReport CHGMMOccupancyMap::insertScan(const ::hgmm::Scan& scan) {
     applyInsertionOptions();
     bridge::warnOfAbsentModalities(model_, scan);
-    return model().insert(scan);
+    const auto report = model().insert(scan);
+    bridge::warnOfRange(report.points, model_.params().filter);
+    return report;
+}
+
+std::size_t CHGMMOccupancyMap::forget(const mrpt::math::TBoundingBox& box_map) {
+    const auto &low = box_map.min, &high = box_map.max;
+    return model().forget(
+        {Eigen::Vector3d(low.x, low.y, low.z), Eigen::Vector3d(high.x, high.y, high.z)});
 }
 
 void CHGMMOccupancyMap::saveToFile(const std::string& fileName) const {
@@ -112,15 +121,22 @@ bool CHGMMOccupancyMap::internal_insertObservation(
     const mrpt::obs::CObservation& observation,
     const std::optional<const mrpt::poses::CPose3D>& robotPose) {
     if (!bridge::isSupported(observation)) return false;
+    const bridge::ReadingParams& reading = insertionOptions.reading;
+    reading.validate();
     if (!insertionOptions.params.modalities.empty()) {
-        const auto scan = bridge::observationToScan(observation, robotPose);
-        return scan && insertScan(*scan).samples > 0;
+        const auto scan = bridge::observationToScan(observation, robotPose,
+                                                    bridge::Channels::all, reading);
+        if (!scan) return false;
+        const auto points = insertScan(*scan).points;
+        return points.used + points.cut + scan->clearedRays.size() > 0;
     }
     applyInsertionOptions();
-    const auto samples = bridge::sharedSamplesOf(observation, model_.params());
+    const auto samples = bridge::sharedSamplesOf(observation, model_.params(), reading);
     if (!samples) return false;
     const ::hgmm::Pose T_map_sensor = bridge::sensorPoseInMap(observation, robotPose);
-    return model().insert(*samples, T_map_sensor).samples > 0;
+    model().insert(*samples, T_map_sensor);
+    bridge::warnOfRange(samples->points, model_.params().filter);
+    return samples->samples_sensor.size() + samples->clearedRays_sensor.size() > 0;
 }
 
 double CHGMMOccupancyMap::internal_computeObservationLikelihood(

@@ -159,6 +159,7 @@ void readMap(CArchive& in, std::uint8_t version, CHGMMOccupancyMap& map) {
     const auto likelihood = readOptions<CHGMMOccupancyMap::TLikelihoodOptions>(in, version);
     const auto render = readOptions<CHGMMOccupancyMap::TRenderOptions>(in, version);
     insertion.params.validate();
+    insertion.reading.validate();
     likelihood.validate();
     render.validate();
     const std::vector<std::uint8_t> buffer = readBuffer(in);

@@ -92,6 +92,7 @@ void addData(Digest& digest, const CObservation2DRangeScan& o) {
     digest.add(o.aperture);
     digest.add(o.rightToLeft);
     digest.add(o.deltaPitch);
+    digest.add(o.maxRange);
     const std::size_t n = o.getScanSize();
     if (n == 0) return;
     const float* ranges = &o.getScanRange(0);
@@ -113,6 +114,7 @@ void addData(Digest& digest, const CObservation3DRangeScan& o) {
     for (const double k : camera.dist) digest.add(k);
     digest.add(camera.distortion);
     digest.add(o.range_is_depth);
+    digest.add(o.maxRange);
     digest.add(o.hasPoints3D);
     digest.add(o.hasRangeImage);
     if (o.points3D_isExternallyStored())
@@ -149,7 +151,8 @@ void addData(Digest& digest, const CObservationVelodyneScan& o) {
 }
 
 void addData(Digest& digest, const CObservationRotatingScan& o) {
-    for (const double v : {o.startAzimuth, o.azimuthSpan, o.rangeResolution}) digest.add(v);
+    for (const double v : {o.startAzimuth, o.azimuthSpan, o.rangeResolution, o.maxRange})
+        digest.add(v);
     digest.add(o.lidarModel);
     digest.add(o.rowCount);
     digest.add(o.columnCount);

@@ -37,10 +37,11 @@ Pose sensorPoseInMap(const CObservation& observation,
 
 std::optional<Scan> observationToScan(const CObservation& observation,
                                       const std::optional<mrpt::poses::CPose3D>& robotPose,
-                                      Channels channels) {
+                                      Channels channels, const ReadingParams& reading) {
     Scan scan;
-    if (!visitSupported(observation,
-                        [&](const auto& o) { return readScan(o, channels, scan); }))
+    if (!visitSupported(observation, [&](const auto& o) {
+            return readScan(o, channels, reading, scan);
+        }))
         return std::nullopt;
     scan.T_map_sensor = sensorPoseInMap(observation, robotPose);
     return scan;

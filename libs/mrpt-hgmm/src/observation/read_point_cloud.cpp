@@ -80,7 +80,8 @@ void readCloud(const CObservationVelodyneScan::TPointCloud& cloud, Channels chan
 
 }  // namespace
 
-bool readScan(const CObservationPointCloud& o, Channels channels, Scan& scan) {
+bool readScan(const CObservationPointCloud& o, Channels channels, const ReadingParams&,
+              Scan& scan) {
     std::unique_lock<std::mutex> lock;
     if (o.isExternallyStored()) lock = std::unique_lock<std::mutex>(externalStorageMutex());
     const bool unloadAfter = o.isExternallyStored() && !o.pointcloud;
@@ -94,7 +95,8 @@ bool canRead(const CObservationVelodyneScan& o) {
     return o.point_cloud.size() > 0 || o.scan_packets.empty() || !o.calibration.empty();
 }
 
-bool readScan(const CObservationVelodyneScan& o, Channels channels, Scan& scan) {
+bool readScan(const CObservationVelodyneScan& o, Channels channels, const ReadingParams&,
+              Scan& scan) {
     if (o.point_cloud.size() > 0) {
         readCloud(o.point_cloud, channels, scan);
         return true;

@@ -3,6 +3,7 @@
 
 #include "observation/image_colour.h"
 #include "observation/scan_readers.h"
+#include "observation/sensor_range.h"
 
 using mrpt::obs::CObservation3DRangeScan;
 
@@ -42,11 +43,17 @@ void readPoints(const CObservation3DRangeScan& o, Channels channels, Scan& scan)
     const std::size_t n = o.points3D_x.size();
     const bool pixelsKnown = o.points3D_idxs_x.size() == n && o.points3D_idxs_y.size() == n;
     std::vector<PixelOfPoint> pixels;
+    const SensorRange sensor(o.maxRange);
     scan.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
         const float x = o.points3D_x[i], y = o.points3D_y[i], z = o.points3D_z[i];
         if (x == 0 && y == 0 && z == 0) continue;  // MRPT's mark of an invalid point
         if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) continue;
+        const Eigen::Vector3d point(x, y, z);
+        if (sensor.isReached(o.range_is_depth ? point.x() : point.norm())) {
+            sensor.clear(point, scan);
+            continue;
+        }
         scan.pushBack(x, y, z);
         if (pixelsKnown) pixels.push_back({o.points3D_idxs_y[i], o.points3D_idxs_x[i]});
     }
@@ -86,6 +93,7 @@ bool readRanges(const CObservation3DRangeScan& o, Channels channels, Scan& scan)
         return false;
     }
     const PixelRays rays(o);
+    const SensorRange sensor(o.maxRange);
     std::vector<PixelOfPoint> pixels;
     for (int row = 0; row < o.rangeImage.rows(); ++row)
         for (int col = 0; col < o.rangeImage.cols(); ++col) {
@@ -93,6 +101,10 @@ bool readRanges(const CObservation3DRangeScan& o, Channels channels, Scan& scan)
             if (raw == 0) continue;
             const double ky = rays.ky(row, col), kz = rays.kz(row, col);
             const double range = double(raw) * o.rangeUnits;
+            if (sensor.isReached(range)) {
+                sensor.clear({1.0, ky, kz}, scan);
+                continue;
+            }
             const double x =
                 o.range_is_depth ? range : range / std::sqrt(1 + ky * ky + kz * kz);
             if (!std::isfinite(x)) continue;
@@ -106,7 +118,8 @@ bool readRanges(const CObservation3DRangeScan& o, Channels channels, Scan& scan)
 
 }  // namespace
 
-bool readScan(const CObservation3DRangeScan& o, Channels channels, Scan& scan) {
+bool readScan(const CObservation3DRangeScan& o, Channels channels, const ReadingParams&,
+              Scan& scan) {
     const LoadedScope loaded(o);
     if (o.hasPoints3D && !o.points3D_x.empty()) {
         readPoints(o, channels, scan);

@@ -1,8 +1,10 @@
 #include <mrpt/obs/VelodyneCalibration.h>
 
+#include <cmath>
 #include <vector>
 
 #include "observation/scan_readers.h"
+#include "observation/sensor_range.h"
 
 using mrpt::obs::CObservationRotatingScan;
 
@@ -58,28 +60,82 @@ Azimuths azimuths(const CObservationRotatingScan& o) {
             o.columnCount > 1 ? o.azimuthSpan / (o.columnCount - 1.0) : 0.0};
 }
 
-void readImage(const CObservationRotatingScan& o, const std::vector<double>& elevations,
-               Channels channels, Scan& scan) {
+/// Whether lasers fired at a column. Images that are not full end with columns of zeros,
+/// and packets that were lost leave some; a single row cannot tell.
+bool wasFired(const CObservationRotatingScan& o, int col) {
+    if (o.rowCount == 1) return true;
+    for (int row = 0; row < o.rowCount; ++row)
+        if (o.rangeImage(row, col) != 0) return true;
+    return false;
+}
+
+/// How far the sensor saw beside each pixel, row by row [m].
+std::vector<std::vector<double>> rangesBesidePixels(const CObservationRotatingScan& o,
+                                                    const SensorRange& sensor) {
+    std::vector<std::vector<double>> beside(o.rowCount);
+    for (int row = 0; row < o.rowCount; ++row) {
+        std::vector<double> ranges(o.columnCount);
+        for (int col = 0; col < o.columnCount; ++col)
+            ranges[col] = o.rangeImage(row, col) * o.rangeResolution;
+        beside[row] = rangesBeside(ranges, sensor.max());
+    }
+    return beside;
+}
+
+/// Where a pixel's point lies.
+class PixelPoints {
+ public:
+    PixelPoints(const CObservationRotatingScan& o, const std::vector<double>& elevations) {
+        const Azimuths azimuth = azimuths(o);
+        for (int col = 0; col < o.columnCount; ++col) {
+            const double angle = azimuth.first + col * azimuth.step;
+            columns_.push_back({std::cos(angle), std::sin(angle)});
+        }
+        for (const double angle : elevations)
+            rows_.push_back({std::cos(angle), std::sin(angle)});
+    }
+    Eigen::Vector3d at(int row, int col, double range) const {
+        const double flat = range * rows_[row].cosine;
+        return {flat * columns_[col].cosine, flat * columns_[col].sine,
+                range * rows_[row].sine};
+    }
+
+ private:
+    struct Angle {
+        double cosine, sine;
+    };
+    std::vector<Angle> rows_, columns_;
+};
+
+void clearNoReturns(const CObservationRotatingScan& o, const PixelPoints& points,
+                    const SensorRange& sensor, double share, Scan& scan) {
+    const auto beside = rangesBesidePixels(o, sensor);
+    for (int col = 0; col < o.columnCount; ++col) {
+        if (!wasFired(o, col)) continue;
+        for (int row = 0; row < o.rowCount; ++row)
+            if (o.rangeImage(row, col) == 0)
+                sensor.clear(points.at(row, col, 1.0), share * beside[row][col], scan);
+    }
+}
+
+void readImage(const CObservationRotatingScan& o, const PixelPoints& points,
+               const SensorRange& sensor, Channels channels, Scan& scan) {
     const bool bright =
         o.intensityImage.rows() == o.rowCount && o.intensityImage.cols() == o.columnCount;
-    const Azimuths azimuth = azimuths(o);
     ScanWriter writer(scan, bright ? channels : Channels::none, {"intensity"});
-    for (int col = 0; col < o.columnCount; ++col) {
-        const double angle = azimuth.first + col * azimuth.step;
-        const double c = std::cos(angle), s = std::sin(angle);
+    for (int col = 0; col < o.columnCount; ++col)
         for (int row = 0; row < o.rowCount; ++row) {
             const auto raw = o.rangeImage(row, col);
             if (raw == 0) continue;
             const double range = raw * o.rangeResolution;
-            const double flat = range * std::cos(elevations[row]);
-            const auto x = static_cast<float>(flat * c), y = static_cast<float>(flat * s);
-            const auto z = static_cast<float>(range * std::sin(elevations[row]));
-            if (bright)
-                writer.pushBack(x, y, z, o.intensityImage(row, col) / 255.F);
+            const Eigen::Vector3f p = points.at(row, col, range).cast<float>();
+            if (sensor.isReached(range))
+                sensor.clear(points.at(row, col, 1.0), scan);
+            else if (bright)
+                writer.pushBack(p.x(), p.y(), p.z(), o.intensityImage(row, col) / 255.F);
             else
-                writer.pushBack(x, y, z);
+                writer.pushBack(p.x(), p.y(), p.z());
         }
-    }
 }
 
 }  // namespace
@@ -88,7 +144,8 @@ bool canRead(const CObservationRotatingScan& o) {
     return o.rowCount == 0 || o.columnCount == 0 || !rowElevations(o).empty();
 }
 
-bool readScan(const CObservationRotatingScan& o, Channels channels, Scan& scan) {
+bool readScan(const CObservationRotatingScan& o, Channels channels,
+              const ReadingParams& reading, Scan& scan) {
     if (o.rowCount == 0 || o.columnCount == 0) return true;
     if (o.rangeImage.rows() != o.rowCount || o.rangeImage.cols() != o.columnCount) {
         warnOnce("CObservationRotatingScan '" + o.sensorLabel +
@@ -104,7 +161,11 @@ bool readScan(const CObservationRotatingScan& o, Channels channels, Scan& scan) 
             "HDL-32E are known. Convert it to CObservationPointCloud.");
         return false;
     }
-    readImage(o, elevations, channels, scan);
+    const PixelPoints points(o, elevations);
+    const SensorRange sensor(o.maxRange);
+    readImage(o, points, sensor, channels, scan);
+    if (reading.considerNoReturnsAsFreeSpace)
+        clearNoReturns(o, points, sensor, reading.clearedShareOfRange, scan);
     return true;
 }
 

@@ -15,21 +15,21 @@
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
 #include "hgmm/scan.h"
 
-/// One reader per observation type. Each fills points, and channels if these are wanted, in
-/// the sensor frame and leaves T_map_sensor alone; false means that the observation cannot
-/// be understood.
+/// One reader per observation type. Each fills points, channels if these are wanted, and
+/// cleared rays, in the sensor frame and leaves T_map_sensor alone; false means that the
+/// observation cannot be understood.
 namespace hgmm::mrpt_bridge {
 
 bool readScan(const mrpt::obs::CObservation2DRangeScan& observation, Channels channels,
-              Scan& scan);
+              const ReadingParams& reading, Scan& scan);
 bool readScan(const mrpt::obs::CObservation3DRangeScan& observation, Channels channels,
-              Scan& scan);
+              const ReadingParams& reading, Scan& scan);
 bool readScan(const mrpt::obs::CObservationPointCloud& observation, Channels channels,
-              Scan& scan);
+              const ReadingParams& reading, Scan& scan);
 bool readScan(const mrpt::obs::CObservationVelodyneScan& observation, Channels channels,
-              Scan& scan);
+              const ReadingParams& reading, Scan& scan);
 bool readScan(const mrpt::obs::CObservationRotatingScan& observation, Channels channels,
-              Scan& scan);
+              const ReadingParams& reading, Scan& scan);
 
 /// Whether readScan would understand the observation, as far as can be told without its
 /// data.

@@ -70,6 +70,7 @@ OptionFields fieldsOf(mrpt::maps::CHGMMOccupancyMap::TInsertionOptions& options)
     forEachOption(options.params, [&](const OptionRow& row, auto& field) {
         fields.push_back({&row, &field});
     });
+    for (const OptionField& field : fieldsOf(options.reading)) fields.push_back(field);
     return fields;
 }
 

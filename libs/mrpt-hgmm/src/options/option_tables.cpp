@@ -1,10 +1,23 @@
 #include "options/option_tables.h"
 
 #include "hgmm/mrpt_bridge/likelihood_params.h"
+#include "hgmm/mrpt_bridge/reading_params.h"
 #include "hgmm/mrpt_bridge/render_params.h"
 #include "hgmm/params.h"
 
 namespace hgmm::mrpt_bridge {
+
+const OptionTable<ReadingParams>& ReadingParams::options() {
+    using P = ReadingParams;
+    static const OptionTable<P> table = {
+        {"considerInvalidRangesAsFreeSpace", &P::considerInvalidRangesAsFreeSpace,
+         "planar lasers: rays flagged invalid, or without range, clear space"},
+        {"considerNoReturnsAsFreeSpace", &P::considerNoReturnsAsFreeSpace,
+         "rotating lidars: rays without return clear space"},
+        {"clearedShareOfRange", &P::clearedShareOfRange, "1", 0, 1,
+         "how far such rays clear space, as a share of the range seen beside them"}};
+    return table;
+}
 
 const OptionTable<LikelihoodParams>& LikelihoodParams::options() {
     using P = LikelihoodParams;
@@ -73,6 +86,13 @@ const OptionTable<CreationOptions>& CreationOptions::options() {
     return table;
 }
 
+void ReadingParams::validate() const {
+    requireOptionsInRange(*this);
+}
+bool ReadingParams::operator==(const ReadingParams& o) const {
+    return sameOptions(*this, o);
+}
+
 void LikelihoodParams::validate() const {
     requireOptionsInRange(*this);
 }
@@ -100,6 +120,7 @@ std::vector<const OptionRow*> insertionRows() {
     std::vector<const OptionRow*> rows;
     const MapParams params;
     forEachOption(params, [&](const OptionRow& row, const auto&) { rows.push_back(&row); });
+    for (const OptionRow& row : ReadingParams::options()) rows.push_back(&row);
     return rows;
 }
 

@@ -26,6 +26,7 @@ void prepare(Options&, const CConfigFileBase&, const std::string&) {}
 
 void validate(const Insertion& options) {
     options.params.validate();
+    options.reading.validate();
 }
 template <typename Options>
 void validate(const Options& options) {

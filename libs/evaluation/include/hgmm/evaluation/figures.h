@@ -21,7 +21,7 @@ struct LevelFigures {
     std::size_t components = 0;      ///< of the surface
     std::size_t componentsFree = 0;  ///< of free space
     std::size_t bytes = 0;           ///< components alone, saved compactly (levelBytes)
-    double klToLevel0 = 0.0;  ///< KL(level 0 || this level) of the surface [nat], 0 for 0
+    double klToLevel0 = 0.0;  ///< KL(level 0 || this level) of the surface [nat], >= 0
     std::optional<double> aucUniform, aucNear;  ///< [0, 1]; none without test points
 };
 
@@ -77,8 +77,12 @@ MapFigures evaluateSurface(const Map& built, const TestPoints& testPoints);
 /// The same for another kind of map.
 MapFigures evaluateBaseline(const Baseline& baseline, const TestPoints& testPoints);
 
-/// The figures of the levels of a map. Goldberger's approximation compares each pair of
-/// components once.
-std::vector<LevelFigures> levelFigures(const Map& map, const TestPoints& testPoints);
+/// Points drawn from the base level to compare other levels with it: an error of .01 nat
+/// where log-densities differ by 1 nat.
+constexpr std::size_t kDivergencePoints = 10000;
+
+/// The figures of the levels of a map; divergences by sampledKlDivergence.
+std::vector<LevelFigures> levelFigures(const Map& map, const TestPoints& testPoints,
+                                       std::uint64_t seed);
 
 }  // namespace hgmm::evaluation

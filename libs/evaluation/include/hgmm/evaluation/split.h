@@ -60,7 +60,8 @@ struct SplitScan {
     Scan heldOut;  ///< test points; empty without holdoutPoints
 };
 
-/// Holds out points first, then thins what is left. For mapping scans.
+/// Holds out points first, then thins what is left. For mapping scans, which keep their
+/// cleared rays.
 SplitScan splitPoints(Scan scan, std::size_t scanIndex, const SplitParams& params);
 
 }  // namespace hgmm::evaluation

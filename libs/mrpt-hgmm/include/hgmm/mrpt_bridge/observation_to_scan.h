@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "hgmm/mrpt_bridge/reading_params.h"
 #include "hgmm/params.h"
 #include "hgmm/scan.h"
 
@@ -39,8 +40,21 @@ inline Channels channelsFor(const MapParams& params) {
 /// | CObservationVelodyneScan | point_cloud, else generated from the packets | intensity |
 /// | CObservationRotatingScan | 1 row; 16 rows (VLP-16); 32 rows (HDL-32E) | intensity |
 ///
-/// Returns, pixels and points that are invalid or not finite are left out. Fields in
+/// Returns, pixels and points that are invalid or not finite are no points. Fields in
 /// external storage are loaded, and unloaded again if they were not in memory before.
+///
+/// Cleared rays (Scan::clearedRays) are read where the sensor's maxRange is known:
+///
+/// | observation | without return: as ReadingParams say | at or beyond maxRange |
+/// | --- | --- | --- |
+/// | CObservation2DRangeScan | invalid, or range <= 0 | cleared up to maxRange |
+/// | CObservation3DRangeScan | zero pixels clear nothing | cleared up to maxRange |
+/// | CObservationRotatingScan | range 0 in a column that has others | up to maxRange |
+/// | CObservationPointCloud, CObservationVelodyneScan | not told | points as others |
+///
+/// Rays without return clear a share of the range seen beside them; those flagged invalid
+/// no farther than the range that they hold, if any: what is masked out or too near hides
+/// what is behind it.
 ///
 /// A channel value that is NaN was not measured. The image of a 3D range scan gives points
 /// the colour of their pixel if both cameras coincide and the images have the same size;
@@ -49,13 +63,14 @@ inline Channels channelsFor(const MapParams& params) {
 /// are divided by 255, or by 65535 if one exceeds 255; those of other types are in 8 bits.
 ///
 /// @param robotPose pose of the robot in the map frame; the origin if not given
+/// @param reading in range (ReadingParams::validate)
 /// @return nothing for types not listed; also, with one message per process on stderr, for
 /// rotating scans with other elevations and Velodyne packets without calibration.
 /// Throws std::runtime_error if a file of an externally stored field cannot be read.
 std::optional<Scan> observationToScan(
     const mrpt::obs::CObservation& observation,
     const std::optional<mrpt::poses::CPose3D>& robotPose = std::nullopt,
-    Channels channels = Channels::all);
+    Channels channels = Channels::all, const ReadingParams& reading = {});
 
 /// Whether observationToScan knows the type, decided without converting anything.
 bool isSupported(const mrpt::obs::CObservation& observation);

@@ -12,6 +12,7 @@
 #include "hgmm/mrpt_bridge/likelihood_params.h"
 #include "hgmm/mrpt_bridge/mrpt_compat.h"
 #include "hgmm/mrpt_bridge/nearest_neighbours.h"
+#include "hgmm/mrpt_bridge/reading_params.h"
 #include "hgmm/mrpt_bridge/render_params.h"
 
 namespace hgmm::mrpt_bridge {
@@ -35,11 +36,13 @@ class CHGMMOccupancyMap : public CMetricMap, public ::hgmm::mrpt_bridge::Nearest
     DEFINE_SERIALIZABLE(CHGMMOccupancyMap, mrpt::maps)
 
  public:
-    /// Section `_insertOpts`: all fields of ::hgmm::MapParams, flattened. `modalities` are
+    /// Section `_insertOpts`: all fields of ::hgmm::MapParams, flattened, and those of
+    /// ::hgmm::mrpt_bridge::ReadingParams. `modalities` are
     /// names separated by commas, where `rgb` is short for `r, g, b`; a map forgets what it
     /// knows of modalities that are not among them any more.
     struct TInsertionOptions : public mrpt::config::CLoadableOptions {
         ::hgmm::MapParams params;
+        ::hgmm::mrpt_bridge::ReadingParams reading;
 
         /// @throws std::invalid_argument naming section, key and value; nothing is changed
         /// then.
@@ -91,6 +94,13 @@ class CHGMMOccupancyMap : public CMetricMap, public ::hgmm::mrpt_bridge::Nearest
     /// Inserts a scan that did not come from an MRPT observation.
     /// @throws std::invalid_argument for a malformed scan or insertionOptions out of range.
     ::hgmm::InsertReport insertScan(const ::hgmm::Scan& scan);
+
+    /// Removes the surfaces in a box, as ::hgmm::Map::forget does: for what is known to be
+    /// gone.
+    /// @param box_map in the map frame [m]
+    /// @return how many components were removed
+    /// @throws std::invalid_argument for a box that is empty or not finite.
+    std::size_t forget(const mrpt::math::TBoundingBox& box_map);
     /// @}
 
     /// @name Files: the serialised object in a gz stream, usually `*.hgmm`

@@ -1,0 +1,10 @@
+#pragma once
+#include "hgmm/params.h"
+#include "hgmm/scan.h"
+
+namespace hgmm::mrpt_bridge {
+
+/// Reports that no point of a scan was in range, so that it added no surface.
+void warnOfRange(const FilterCounts& points, const FilterParams& params);
+
+}  // namespace hgmm::mrpt_bridge
