@@ -5,6 +5,7 @@
 #include "format.h"
 #include "map_setup.h"
 #include "studies/comparison_studies.h"
+#include "studies/dynamics_study.h"
 #include "studies/fidelity_study.h"
 #include "studies/free_space_study.h"
 #include "studies/incremental_study.h"
@@ -98,6 +99,12 @@ std::vector<Study> makeStudies() {
          Needs::testScans,
          roomStudy,
          {}},
+        {"dynamics",
+         "how soon things that appear, move or go are noticed in a simulated room; takes "
+         "no LOG",
+         Needs::nothing,
+         {},
+         dynamicsStudy},
         {"landscape",
          "whether the likelihood of test scans has its maximum at their poses, and hill "
          "climbing leads there",
