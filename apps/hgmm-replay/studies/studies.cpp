@@ -14,6 +14,7 @@
 #include "studies/registration_study.h"
 #include "studies/regression_study.h"
 #include "studies/room_study.h"
+#include "studies/unseen_study.h"
 #include "studies/voxel_study.h"
 
 namespace replay {
@@ -105,6 +106,13 @@ std::vector<Study> makeStudies() {
          Needs::nothing,
          {},
          dynamicsStudy},
+        {"unseen",
+         "what is said of the insides of solids, of space behind walls, and where rays did "
+         "not "
+         "return; takes no LOG",
+         Needs::nothing,
+         {},
+         unseenStudy},
         {"landscape",
          "whether the likelihood of test scans has its maximum at their poses, and hill "
          "climbing leads there",
