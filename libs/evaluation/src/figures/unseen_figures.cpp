@@ -52,7 +52,7 @@ UnseenPoints SeenSpace::draw(const FreeBand& free) const {
         const double share = nextUniform(stream);
         return rays_[static_cast<std::size_t>(share * static_cast<double>(rays_.size()))];
     };
-    points.behindHits_map = drawUnseen(*cells_, [&] {
+    points.behindHits_map = drawUnseen(*cells_, [&]() -> Eigen::Vector3d {
         const Ray ray = anyRay();
         const double least_m = UnseenPoints::kBehind_m[0];
         const double behind_m =
