@@ -105,7 +105,7 @@ void changeProtocol(const DynamicsRun& run, int scans, bool appears) {
     for (std::size_t m = 0; m < world.maps().size(); ++m)
         table.add({run.sensor, std::to_string(scans), world.maps()[m]->name()},
                   {notice.scansUntil(0.5, m), notice.scansUntil(0.99, m), notice.first(m),
-                   notice.points(), medianTime(*world.maps()[m])});
+                   notice.last(m), notice.points(), medianTime(*world.maps()[m])});
     staying.report((appears ? "appears " : "removed ") + std::to_string(scans), run, world);
 }
 

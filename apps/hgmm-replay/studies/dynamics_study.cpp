@@ -49,20 +49,25 @@ void addJobs(const std::string& protocol, const DynamicsRun& run,
                         [=] { parkedProtocol(run, noise_m, dust, std::max(n, 2000)); });
 }
 
-void conclude(const DynamicsTables& tables, const Options& options) {
+/// All tables in the order of kProtocols, then what stays.
+std::vector<const FigureTable*> allOf(const DynamicsTables& t) {
+    return {&t.removed, &t.appears, &t.person, &t.door, &t.parked, &t.stays};
+}
+
+void print(const FigureTable& table) {
+    if (!table.empty()) std::fputs(table.text().c_str(), stdout);
+    std::fflush(stdout);
+}
+
+void writeMetrics(const DynamicsTables& tables, const Options& options) {
     nlohmann::ordered_json json{{"study", "dynamics"},
                                 {"seeds", options.choice.seeds},
                                 {"first_seed", options.split.seed},
                                 {"threads", options.threads},
                                 {"interrupted", interrupted()}};
-    for (const FigureTable* table : {&tables.removed, &tables.appears, &tables.person,
-                                     &tables.door, &tables.stays, &tables.parked}) {
-        if (table->empty()) continue;
-        std::fputs(table->text().c_str(), stdout);
-        json[table->key()] = table->json();
-    }
-    if (options.reportFolder)
-        writeTextFile(*options.reportFolder + "/metrics.json", json.dump(2) + "\n");
+    for (const FigureTable* table : allOf(tables))
+        if (!table->empty()) json[table->key()] = table->json();
+    writeTextFile(*options.reportFolder + "/metrics.json", json.dump(2) + "\n");
 }
 
 }  // namespace
@@ -72,19 +77,22 @@ void dynamicsStudy(const Options& options) {
     const Names sensors = chosen("--sensors", options.choice.sensors, kSensors);
     const MakeMaps makeMaps = mapsOf(options);
     DynamicsTables tables;
-    std::vector<Job> jobs;
-    for (const std::string& protocol : protocols)
+    std::printf("study dynamics: worst of %d seeds, %d threads\n", options.choice.seeds,
+                options.threads);
+    for (const FigureTable* table : allOf(tables)) {
+        std::vector<Job> jobs;
         for (const std::string& sensor : sensors)
             for (int i = 0; i < options.choice.seeds; ++i) {
                 const std::uint64_t seed =
                     options.split.seed + static_cast<std::uint64_t>(i);
-                addJobs(protocol, {sensor, seed, makeMaps, tables}, options.choice.after,
-                        jobs);
+                if (contains(protocols, table->key()))
+                    addJobs(table->key(), {sensor, seed, makeMaps, tables},
+                            options.choice.after, jobs);
             }
-    std::printf("study dynamics: worst of %d seeds, %d threads\n", options.choice.seeds,
-                options.threads);
-    runJobs(jobs, options.quiet);
-    conclude(tables, options);
+        if (!interrupted()) runJobs(jobs, options.quiet || jobs.empty());
+        print(*table);
+    }
+    if (options.reportFolder) writeMetrics(tables, options);
 }
 
 }  // namespace replay

@@ -8,8 +8,10 @@ namespace hgmm::evaluation {
 namespace {
 
 /// Takes the box into account, if the ray enters it before `nearest`.
+/// @param inverse of each coordinate of the direction
 void castAtBox(const Box& box, Part part, const Eigen::Vector3d& origin,
-               const Eigen::Vector3d& direction, SceneHit& nearest) {
+               const Eigen::Vector3d& direction, const Eigen::Vector3d& inverse,
+               SceneHit& nearest) {
     double enter = 0.0, leave = nearest.range_m;
     int axisOfEntry = -1;
     for (int axis = 0; axis < 3; ++axis) {
@@ -17,8 +19,8 @@ void castAtBox(const Box& box, Part part, const Eigen::Vector3d& origin,
             if (origin[axis] <= box.low[axis] || origin[axis] >= box.high[axis]) return;
             continue;
         }
-        double first = (box.low[axis] - origin[axis]) / direction[axis];
-        double second = (box.high[axis] - origin[axis]) / direction[axis];
+        double first = (box.low[axis] - origin[axis]) * inverse[axis];
+        double second = (box.high[axis] - origin[axis]) * inverse[axis];
         if (first > second) std::swap(first, second);
         if (first > enter) {
             enter = first;
@@ -73,7 +75,9 @@ void Scene::add(const Pillar& pillar, Part part) {
 std::optional<SceneHit> Scene::cast(const Eigen::Vector3d& origin,
                                     const Eigen::Vector3d& direction) const {
     SceneHit nearest;
-    for (const PartBox& b : boxes_) castAtBox(b.box, b.part, origin, direction, nearest);
+    const Eigen::Vector3d inverse = direction.cwiseInverse();
+    for (const PartBox& b : boxes_)
+        castAtBox(b.box, b.part, origin, direction, inverse, nearest);
     for (const PartPillar& p : pillars_)
         castAtPillar(p.pillar, p.part, origin, direction, nearest);
     if (!std::isfinite(nearest.range_m)) return std::nullopt;
