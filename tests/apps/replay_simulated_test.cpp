@@ -51,6 +51,7 @@ TEST_F(ReplaySimulated, AppearsAtOnceInVoxelsThatWereHardlyEverSeen) {
     EXPECT_LE(voxels["scans_to_99pct"], 3);
 }
 
+// Voxels of 5 cm reach past the margin of 4 cm, so that some are seen at a face.
 TEST_F(ReplaySimulated, SolidsAreUnknownToVoxels) {
     const auto json =
         study("unseen --only solids --sensors 2d --after 9 --baselines octomap");
@@ -59,7 +60,7 @@ TEST_F(ReplaySimulated, SolidsAreUnknownToVoxels) {
         if (row["map"] != "octomap") continue;
         for (const char* figure : {"free_in_box_05", "free_in_box_12", "free_behind_walls",
                                    "free_beyond_corners", "below_half_in_solids"})
-            EXPECT_EQ(row[figure], 0.0) << figure;
+            EXPECT_LT(row[figure], 0.01) << figure;
         EXPECT_LT(row["seen_called_unknown"], 0.05);
     }
 }
@@ -72,8 +73,8 @@ TEST_F(ReplaySimulated, HallIsFreeInTheGridThatUsesInvalidRays) {
                            row["passed_occupied"].get<double>() +
                            row["passed_unknown"].get<double>();
         EXPECT_NEAR(all, 1.0, 1e-9);
-        if (row["map"] == "grid2d" && row["no return is"] == "invalid, max")
-            EXPECT_GT(row["passed_free"], 0.7);
+        if (row["map"] != "grid2d" || row["no return is"] != "invalid, max") continue;
+        EXPECT_GT(row["passed_free"], 0.7);
     }
 }
 

@@ -116,7 +116,9 @@ TEST(Unseen, PointsBehindAWallAreUnseenAndThoseBeforeItAreNot) {
         ASSERT_GT(p.x(), 4.05 - 1e-6);
         ASSERT_LT(p.x(), 6.05 + 1e-6);
         // The first wall's own two metres to either side are seen at its face only.
-        if (std::abs(p.y() - 0.05) < 1.9) ASSERT_GT(p.x(), nearest);
+        if (std::abs(p.y() - 0.05) < 1.9) {
+            ASSERT_GT(p.x(), nearest);
+        }
     }
     EXPECT_EQ(seen.draw().inBox_map, more.inBox_map);
 }
