@@ -81,6 +81,20 @@ TEST(SeenCells, ClearedRaysCountAndBrokenPointsDoNot) {
     EXPECT_TRUE(cells.isUnseen({2.9, 0, 0}));
 }
 
+TEST(SeenCells, OneOfHitsSideBySideStandsForAllButNotForThoseApart) {
+    hgmm::Scan scan;  // hits 1 cm apart over a metre, at 2 m, in cells of 10 cm
+    for (int i = 0; i < 100; ++i) scan.pushBack(2.F, 0.01F * static_cast<float>(i), 0.F);
+    SeenCells all(0.1), thinned(0.1);
+    for (std::size_t i = 0; i < scan.size(); ++i)
+        all.addRay({0, 0, 0}, {scan.x[i], scan.y[i], scan.z[i]});
+    thinned.add(scan);
+    EXPECT_LE(thinned.size(), all.size());
+    EXPECT_GT(thinned.size(), all.size() * 19 / 20);
+    for (double x = 0.05; x < 2.0; x += 0.1)
+        for (double y = 0.0; y < 0.5 * x; y += 0.05)
+            ASSERT_FALSE(thinned.isUnseen({x, y, 0})) << x << " " << y;
+}
+
 TEST(SeenCells, EdgeGoesByTheMedianRange) {
     hgmm::Scan scan;
     for (const float range : {1.F, 5.F, 7.F, 80.F, 90.F}) scan.pushBack(range, 0, 0);

@@ -40,9 +40,17 @@ void SeenCells::addRay(const Eigen::Vector3d& from_map, const Eigen::Vector3d& t
 }
 
 void SeenCells::add(const Scan& scan) {
+    constexpr double kQuarter = 0.25;
     const Pose& T = scan.T_map_sensor;
-    for (std::size_t i = 0; i < scan.size(); ++i)
-        addRay(T.t, T.R * Eigen::Vector3d(scan.x[i], scan.y[i], scan.z[i]) + T.t);
+    ends_.clear();
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const Eigen::Vector3d p_map =
+            T.R * Eigen::Vector3d(scan.x[i], scan.y[i], scan.z[i]) + T.t;
+        if (!hasVoxel(p_map, kQuarter * edge_m_)) continue;
+        const std::size_t before = ends_.size();
+        ends_.numberOf(voxelOf(p_map, kQuarter * edge_m_));
+        if (ends_.size() > before) addRay(T.t, p_map);
+    }
     for (const ClearedRay& ray : scan.clearedRays)
         addRay(T.t, T.R * (ray.length_m * ray.direction).cast<double>() + T.t);
 }

@@ -17,8 +17,10 @@ class SeenCells {
     /// @param edge_m of a cell [m], > 0
     explicit SeenCells(double edge_m) : edge_m_(edge_m) {}
 
-    /// Marks the cells of all rays of a scan, to their hits and along cleared rays; points
-    /// that are not finite are left out.
+    /// Marks the cells of the rays of a scan, to their hits and along cleared rays; points
+    /// that are not finite are left out. Of hits in the same quarter of a cell's edge,
+    /// along each axis, one stands for all, for dense images would take longer to trace
+    /// than to map.
     void add(const Scan& scan);
     /// Marks the cells of one ray, both ends included.
     void addRay(const Eigen::Vector3d& from_map, const Eigen::Vector3d& to_map);
@@ -41,6 +43,7 @@ class SeenCells {
 
     double edge_m_;
     VoxelHash<Block> blocks_;
+    VoxelHash<char> ends_;  ///< of the rays of one scan, in quarters of an edge
     VoxelIndex lastBlock_ = VoxelIndex::Constant(1 << 30);
     std::size_t lastNumber_ = 0;  ///< of lastBlock_ in blocks_
 };
