@@ -21,6 +21,22 @@ using namespace hgmm::evaluation;
 
 enum ExitCode { kDone = 0, kBadInput = 1, kWrongUsage = 2, kInterrupted = 130 };
 
+void defineStudyOptions(CLI::App& app, StudyChoice& choice) {
+    app.add_option("--only", choice.only, "Parts of a study to run")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    app.add_option("--sensors", choice.sensors, "Simulated sensors of a study")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    app.add_option("--after", choice.after, "Scans of a study before what it looks at")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(CLI::Range(1, 1000000));
+    app.add_option("--seeds", choice.seeds,
+                   "Runs of a simulated study, of which the worst counts")
+        ->check(CLI::Range(1, 1000));
+}
+
 void defineOptions(CLI::App& app, Options& o, bool& listStudies) {
     app.add_option("LOG", o.log, "Recording to replay (.rawlog)");
     app.add_option("--config", o.config,
@@ -53,6 +69,7 @@ void defineOptions(CLI::App& app, Options& o, bool& listStudies) {
             return findStudy(name) ? "" : "no such study; --list-studies names them";
         });
     app.add_flag("--list-studies", listStudies, "List the studies");
+    defineStudyOptions(app, o.choice);
 }
 
 void checkStudyUsage(const Study& study, const Options& o) {
@@ -128,7 +145,7 @@ ExitCode run(Options& options) {
     const Study* study = options.study ? findStudy(*options.study) : nullptr;
     if (study && study->needs == Study::Needs::nothing) {
         study->alone(options);
-        return kDone;
+        return interrupted() ? kInterrupted : kDone;
     }
     const bool posesRequired = !study || study->needs != Study::Needs::scans;
     RecordingOptions recordingOptions{options.poses, options.from, options.to,

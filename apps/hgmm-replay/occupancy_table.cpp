@@ -41,6 +41,27 @@ std::string accuracy(const MapFigures& map, int width) {
                         f.unknownShareNear);
 }
 
+std::string unseen(const MapFigures& map, int width) {
+    const UnseenFigures& f = *map.unseen;
+    return format("  %-*s  %8.3f  %8.3f  %8.3f  %8.3f  %8.3f\n", width, map.name.c_str(),
+                  100.0 * f.calledFreeBehindHits, 100.0 * f.calledFreeInBox,
+                  100.0 * f.calledOccupied, f.meanUnknown, 100.0 * f.seenCalledUnknown);
+}
+
+std::string unseenTable(const std::vector<MapFigures>& maps, int width) {
+    const UnseenFigures& f = *maps.front().unseen;
+    std::string text =
+        format("\nunseen: %zu points behind hits, %zu in the box around all; %zu seen\n",
+               f.behindHits, f.inBox, f.free);
+    text += format("  %-*s  called free [%%]    called    mean P(    seen called\n", width,
+                   "map");
+    text += format("  %-*s    behind    in box  occ. [%%]  unknown)  unknown [%%]\n", width,
+                   "");
+    for (const MapFigures& map : maps)
+        if (map.unseen) text += unseen(map, width);
+    return text;
+}
+
 std::string cost(const MapFigures& map, int width, const double* firstBaseline_ms) {
     const std::size_t bytes = countedBytes(map.memory);
     std::string row = format("  %-*s  %10.1f  %8.2f", width, map.name.c_str(),
@@ -76,6 +97,7 @@ std::string occupancyTable(const Run& run, const std::vector<MapFigures>& maps) 
         for (const MapFigures& map : maps)
             if (map.occupancy) text += accuracy(map, width);
     }
+    if (maps.front().unseen) text += unseenTable(maps, width);
     // Ours come first, and have levels unless one is asked for its surfaces alone.
     const auto baseline =
         std::find_if(maps.begin() + 1, maps.end(),

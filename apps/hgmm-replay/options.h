@@ -10,6 +10,14 @@
 
 namespace replay {
 
+/// What of a study to run.
+struct StudyChoice {
+    std::vector<std::string> only;     ///< its parts; none: all
+    std::vector<std::string> sensors;  ///< simulated ones; none: all
+    std::vector<int> after;            ///< scans before a change; none: the usual ones [1]
+    int seeds = 1;                     ///< runs, whose seeds count from --seed on [1]
+};
+
 /// The command line.
 struct Options {
     std::string log;
@@ -18,6 +26,7 @@ struct Options {
     std::optional<std::string> reportFolder;
     std::optional<std::string> saveMap;
     std::optional<std::string> study;
+    StudyChoice choice;
     hgmm::evaluation::SplitParams split;
     double rangeNoise_m = 0.0;  ///< added to mapping scans, one sigma [m]
     std::optional<hgmm::evaluation::NearBand> near;  ///< none = by the kind of sensor

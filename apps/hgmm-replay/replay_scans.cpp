@@ -63,6 +63,8 @@ Replayed prepare(const Recording& recording, mrpt::maps::CHGMMOccupancyMap::Ptr 
         makeBaselines(options, sensorKindOf(recording.sensor()), std::move(others)),
         {},
         TestPoints(options.split.seed, near, options.free),
+        SeenSpace(options.split.seed),
+        {},
         {},
         {},
         {}};
@@ -101,6 +103,7 @@ struct Sampling {
 void useScan(hgmm::Scan scan, std::size_t index, const Sampling& sampling,
              Replayed& replayed) {
     Run& run = replayed.run;
+    replayed.seen.add(scan, index);
     if (run.split.isTestScan(index)) {
         ++run.scansTested;
         replayed.testPoints.add(scan, index);
@@ -148,6 +151,7 @@ Replayed replayScans(Recording& recording, mrpt::maps::CHGMMOccupancyMap::Ptr ma
         run.interrupted = interrupted();
         if (run.interrupted) break;
     }
+    replayed.unseen = replayed.seen.draw(options.free);
     const std::size_t scans = run.scansMapped + run.scansTested;
     if (scans > 0)
         run.pointsPerScan = static_cast<double>(points) / static_cast<double>(scans);

@@ -9,6 +9,7 @@
 #include "hgmm/evaluation/figures.h"
 #include "hgmm/evaluation/recording.h"
 #include "hgmm/evaluation/test_points.h"
+#include "hgmm/evaluation/unseen_points.h"
 #include "options.h"
 
 namespace replay {
@@ -33,10 +34,13 @@ struct Replayed {
     std::vector<ReplayedBaseline> baselines;
     hgmm::evaluation::Run run;
     hgmm::evaluation::TestPoints testPoints;
-    hgmm::evaluation::Points input_map;  ///< some of the points of each mapping scan, to
-                                         ///< be looked at [m]
-    InsertionCost cost;                  ///< of `map`
-    std::vector<double> conversion_ms;   ///< observation to scan, of every scan
+    /// Of all scans, test scans as well.
+    hgmm::evaluation::SeenSpace seen;
+    hgmm::evaluation::UnseenPoints unseen;  ///< drawn from `seen` at the end
+    hgmm::evaluation::Points input_map;     ///< some of the points of each mapping scan, to
+                                            ///< be looked at [m]
+    InsertionCost cost;                     ///< of `map`
+    std::vector<double> conversion_ms;      ///< observation to scan, of every scan
 };
 
 /// Inserts the mapping scans, in the map, in `others` and in the baselines of `options`,

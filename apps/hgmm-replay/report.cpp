@@ -30,7 +30,8 @@ MapFigures ours(const char* name, MapFigures figures, const Replayed& replayed) 
 std::vector<MapFigures> evaluateBaselines(const Replayed& replayed) {
     std::vector<MapFigures> maps;
     for (const ReplayedBaseline& baseline : replayed.baselines) {
-        maps.push_back(evaluateBaseline(*baseline.map, replayed.testPoints));
+        maps.push_back(
+            evaluateBaseline(*baseline.map, replayed.testPoints, replayed.unseen));
         maps.back().name = baseline.name;
         addCost(baseline.cost, maps.back());
     }
@@ -41,7 +42,7 @@ std::vector<MapFigures> evaluateReplayed(const Replayed& replayed) {
     std::vector<MapFigures> maps = evaluateBaselines(replayed);
     maps.insert(maps.begin(), ours("hgmm",
                                    evaluateMap(replayed.map->model(), replayed.testPoints,
-                                               replayed.run.split.seed),
+                                               replayed.run.split.seed, replayed.unseen),
                                    replayed));
     return maps;
 }

@@ -29,6 +29,14 @@ TEST_F(ReplayOccupancy, BaselinesAreEvaluatedBesideTheMap) {
     EXPECT_GT(fine["auc_near"], double(coarse["auc_near"]) + 0.05)
         << "voxels of 0.4 m hold walls and what is before them";
     EXPECT_GT(fine["bytes_live"], coarse["bytes_live"]);
+    expectHas(outcome.out, "unseen: ");
+    EXPECT_GT(fine["unseen_points_behind_hits"], 1000);
+    // Unseen points are 10 cm and more from all rays: not in a voxel of theirs.
+    EXPECT_EQ(fine["unseen_called_free_behind_hits"], 0.0);
+    EXPECT_EQ(fine["unseen_called_free_in_box"], 0.0);
+    EXPECT_EQ(fine["unseen_called_occupied"], 0.0);
+    EXPECT_EQ(fine["unseen_mean_p_unknown"], 1.0);
+    EXPECT_GT(coarse["unseen_called_occupied"], 0.02) << "behind walls, in their voxels";
     for (const char* name : {"roc.svg", "reliability.svg", "levels.svg"})
         expectHas(content(std::string("report/") + name), "octomap:0.4");
 }

@@ -11,7 +11,7 @@ TEST_F(ReplayStudy, StudiesAreListed) {
     outcome.out.insert(0, "\n");
     for (const char* name :
          {"fig3.2", "fig3.5", "fig3.8", "incremental", "fig4.1", "fig4.2", "table4.1",
-          "fig4.5", "realtime", "free-space", "room"})
+          "fig4.5", "realtime", "free-space", "room", "dynamics", "unseen"})
         expectHas(outcome.out, std::string("\n") + name + " ");
 }
 

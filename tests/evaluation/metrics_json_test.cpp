@@ -140,6 +140,21 @@ TEST(MetricsJson, OccupancyUnderTheNamesOfTheSchema) {
     EXPECT_EQ(m["reliability"], nlohmann::ordered_json::parse("[[0.1,0.2],[0.9,0.7]]"));
 }
 
+TEST(MetricsJson, UnseenSpaceUnderTheNamesOfTheProtocol) {
+    MapFigures map = exampleFigures();
+    EXPECT_FALSE(metricsJson({}, {map})["maps"][0].contains("unseen_called_occupied"));
+    map.unseen = UnseenFigures{7, 8, 9, 0.1, 0.2, 0.3, 0.4, 0.5};
+    const auto json = metricsJson({}, {map})["maps"][0];
+    EXPECT_EQ(json["unseen_points_behind_hits"], 7);
+    EXPECT_EQ(json["unseen_points_in_box"], 8);
+    EXPECT_EQ(json["seen_points"], 9);
+    EXPECT_EQ(json["unseen_called_free_behind_hits"], 0.1);
+    EXPECT_EQ(json["unseen_called_free_in_box"], 0.2);
+    EXPECT_EQ(json["unseen_called_occupied"], 0.3);
+    EXPECT_EQ(json["unseen_mean_p_unknown"], 0.4);
+    EXPECT_EQ(json["seen_called_unknown"], 0.5);
+}
+
 TEST(MetricsJson, OtherMapsHaveNoComponentsAndNoSavedSize) {
     MapFigures map = exampleFigures();
     map.levels.clear();

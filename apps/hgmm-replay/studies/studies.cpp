@@ -5,6 +5,7 @@
 #include "format.h"
 #include "map_setup.h"
 #include "studies/comparison_studies.h"
+#include "studies/dynamics_study.h"
 #include "studies/fidelity_study.h"
 #include "studies/free_space_study.h"
 #include "studies/incremental_study.h"
@@ -13,6 +14,7 @@
 #include "studies/registration_study.h"
 #include "studies/regression_study.h"
 #include "studies/room_study.h"
+#include "studies/unseen_study.h"
 #include "studies/voxel_study.h"
 
 namespace replay {
@@ -98,6 +100,19 @@ std::vector<Study> makeStudies() {
          Needs::testScans,
          roomStudy,
          {}},
+        {"dynamics",
+         "how soon things that appear, move or go are noticed in a simulated room; takes "
+         "no LOG",
+         Needs::nothing,
+         {},
+         dynamicsStudy},
+        {"unseen",
+         "what is said of the insides of solids, of space behind walls, and where rays did "
+         "not "
+         "return; takes no LOG",
+         Needs::nothing,
+         {},
+         unseenStudy},
         {"landscape",
          "whether the likelihood of test scans has its maximum at their poses, and hill "
          "climbing leads there",

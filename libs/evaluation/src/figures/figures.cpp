@@ -45,7 +45,8 @@ std::vector<LevelFigures> levelFigures(const Map& map, const TestPoints& testPoi
     return figures;
 }
 
-MapFigures evaluateMap(const Map& built, const TestPoints& testPoints, std::uint64_t seed) {
+MapFigures evaluateMap(const Map& built, const TestPoints& testPoints, std::uint64_t seed,
+                       const UnseenPoints& unseen) {
     const std::vector<std::uint8_t> saved = built.save();
     const Map map = Map::load(saved.data(), saved.size());
     MapFigures figures;
@@ -55,6 +56,8 @@ MapFigures evaluateMap(const Map& built, const TestPoints& testPoints, std::uint
     });
     figures.levels = levelFigures(map, testPoints, seed);
     figures.memory = memoryOf(built);
+    if (!map.empty() && !unseen.free_map.empty())
+        figures.unseen = evaluateUnseen(occupancyQueryOf(map), unseen);
     if (map.empty() || testPoints.empty()) return figures;
     figures.occupancy = occupancyOf(queryOf(map), testPoints);
 
@@ -91,7 +94,8 @@ MapFigures evaluateSurface(const Map& built, const TestPoints& testPoints) {
     return figures;
 }
 
-MapFigures evaluateBaseline(const Baseline& baseline, const TestPoints& testPoints) {
+MapFigures evaluateBaseline(const Baseline& baseline, const TestPoints& testPoints,
+                            const UnseenPoints& unseen) {
     MapFigures figures;
     figures.className = baseline.className();
     figures.source = baseline.source();
@@ -102,6 +106,17 @@ MapFigures evaluateBaseline(const Baseline& baseline, const TestPoints& testPoin
         occupancyOf([&](const Eigen::Vector3d* points_map, std::size_t n,
                         Answer* answers) { baseline.query(points_map, n, answers); },
                     testPoints);
+    if (figures.ranked && !unseen.free_map.empty())
+        figures.unseen = evaluateUnseen(
+            [&](const Points& points_map) {
+                std::vector<Answer> answers(points_map.size());
+                baseline.query(points_map.data(), points_map.size(), answers.data());
+                std::vector<Occupancy> occupancies;
+                for (const Answer& answer : answers)
+                    occupancies.push_back(occupancyOfAnswer(answer));
+                return occupancies;
+            },
+            unseen);
     // After the queries, for which some maps finish work first.
     figures.memory.live_bytes = baseline.liveBytes();
     figures.memory.serialized_bytes = baseline.serializedBytes();

@@ -42,6 +42,17 @@ Json levelJson(const LevelFigures& level) {
     return json;
 }
 
+void addUnseen(const UnseenFigures& f, Json& json) {
+    json["unseen_points_behind_hits"] = f.behindHits;
+    json["unseen_points_in_box"] = f.inBox;
+    json["unseen_called_free_behind_hits"] = f.calledFreeBehindHits;
+    json["unseen_called_free_in_box"] = f.calledFreeInBox;
+    json["unseen_called_occupied"] = f.calledOccupied;
+    json["unseen_mean_p_unknown"] = f.meanUnknown;
+    json["seen_points"] = f.free;
+    json["seen_called_unknown"] = f.seenCalledUnknown;
+}
+
 /// Pairs of false and true positive rates, close enough for a drawing.
 Json rocJson(const RocCurve& curve) {
     constexpr double step = 0.005;
@@ -101,6 +112,7 @@ Json mapJson(const MapFigures& map) {
     if (map.occupancy) addOccupancy(*map.occupancy, json);
     if (map.occupancy && map.meaning == Meaning::occupancy)
         addCalibration(*map.occupancy, json);
+    if (map.unseen) addUnseen(*map.unseen, json);
     if (map.logLikelihoodOfHits) json["loglik_hit"] = *map.logLikelihoodOfHits;
     if (map.reconstruction) {
         json["accuracy_m"] = map.reconstruction->accuracy_m;

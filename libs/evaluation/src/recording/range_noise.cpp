@@ -7,16 +7,6 @@
 #include "hgmm/evaluation/split.h"
 
 namespace hgmm::evaluation {
-namespace {
-
-/// Standard normal (Box and Muller): std::normal_distribution is not the same everywhere.
-double nextNormal(std::mt19937_64& stream) {
-    constexpr double kTwoPi = 6.283185307179586477;
-    const double radius = std::sqrt(-2.0 * std::log1p(-nextUniform(stream)));
-    return radius * std::cos(kTwoPi * nextUniform(stream));
-}
-
-}  // namespace
 
 void addRangeNoise(Scan& scan, double std_m, std::uint64_t seed, std::size_t scanIndex) {
     if (!(std_m >= 0.0 && std::isfinite(std_m)))

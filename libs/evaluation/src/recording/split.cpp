@@ -60,6 +60,12 @@ double nextUniform(std::mt19937_64& stream) {
     return static_cast<double>(stream() >> 11U) * 0x1p-53;
 }
 
+double nextNormal(std::mt19937_64& stream) {
+    constexpr double kTwoPi = 6.283185307179586477;
+    const double radius = std::sqrt(-2.0 * std::log1p(-nextUniform(stream)));
+    return radius * std::cos(kTwoPi * nextUniform(stream));
+}
+
 std::vector<std::size_t> chooseIndices(std::size_t total, std::size_t n, std::uint64_t seed,
                                        std::size_t scanIndex, Draw draw) {
     std::vector<std::size_t> chosen;

@@ -12,6 +12,7 @@
 #include "hgmm/evaluation/split.h"
 #include "hgmm/evaluation/test_points.h"
 #include "hgmm/evaluation/timing.h"
+#include "hgmm/evaluation/unseen_points.h"
 
 namespace hgmm::evaluation {
 
@@ -35,6 +36,8 @@ struct MapFigures {
                                            ///< probabilities of occupancy
     std::vector<std::pair<std::string, double>> options;
     std::optional<OccupancyFigures> occupancy;  ///< none without test points
+    std::optional<UnseenFigures> unseen;        ///< none for maps whose answers are no
+                                                ///< probabilities
     std::optional<double> logLikelihoodOfHits;  ///< [nat/point]; none without test points
     std::optional<double> likelihoodsPerSecond;
     std::optional<Reconstruction> reconstruction;  ///< none without test points
@@ -67,15 +70,18 @@ constexpr std::size_t kModelPoints = 200000;
 
 /// The figures of a map: all but its name and times of insertion. They are taken on the map
 /// as loaded back from its saved bytes, for these are what is counted as its size; live
-/// bytes are those of the map itself. What needs test points is left out if there are none.
-MapFigures evaluateMap(const Map& built, const TestPoints& testPoints, std::uint64_t seed);
+/// bytes are those of the map itself. What needs test points, or unseen ones, is left out
+/// if there are none.
+MapFigures evaluateMap(const Map& built, const TestPoints& testPoints, std::uint64_t seed,
+                       const UnseenPoints& unseen = {});
 
 /// The surface model of a map alone, as loaded back from its saved bytes: test points are
 /// scored by its density, as thesis 3.4.1 does (Meaning::surfaceLikelihood).
 MapFigures evaluateSurface(const Map& built, const TestPoints& testPoints);
 
 /// The same for another kind of map.
-MapFigures evaluateBaseline(const Baseline& baseline, const TestPoints& testPoints);
+MapFigures evaluateBaseline(const Baseline& baseline, const TestPoints& testPoints,
+                            const UnseenPoints& unseen = {});
 
 /// Points drawn from the base level to compare other levels with it: an error of .01 nat
 /// where log-densities differ by 1 nat.

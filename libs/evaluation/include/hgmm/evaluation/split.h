@@ -37,7 +37,10 @@ enum class Draw : std::uint64_t {
     room = 8,
     modality = 9,
     modalityQueries = 10,
-    startPose = 11
+    startPose = 11,
+    dust = 12,
+    view = 13,
+    unseen = 14
 };
 
 /// The random numbers of one use in one scan.
@@ -45,6 +48,10 @@ std::mt19937_64 randomStream(std::uint64_t seed, std::size_t scanIndex, Draw dra
 
 /// The next number of a stream, uniform in [0, 1); the same on every platform.
 double nextUniform(std::mt19937_64& stream);
+
+/// The next number of a stream, standard normal (Box and Muller); the same on every
+/// platform, as std::normal_distribution is not.
+double nextNormal(std::mt19937_64& stream);
 
 /// Chooses `n` of `total` indices, rising, each subset equally likely; all of them if
 /// n >= total. The same (seed, scanIndex, draw) gives the same choice.
