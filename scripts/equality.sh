@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Shows that maps of this tree are those of another commit, bit for bit: builds both, puts the same
 # recordings into the maps of either, and compares all components and answers.
-#   scripts/equality.sh [BASE_COMMIT]   default: d48da0d; exits with 1 on any difference
+#   scripts/equality.sh [BASE_COMMIT]   default: HEAD~1; exits with 1 on any difference
 #   scripts/equality.sh --self-test     plants one changed ulp, and fails unless it is found by name
 # HGMM_DATA_DIR names the recordings, ../shared/data if unset. HGMM_BASE_TREE names a clone at
 # BASE_COMMIT that is built in its build/, to be used as it is. Everything else is in
@@ -171,5 +171,5 @@ mkdir -p "$out"
 case ${1:-} in
 --self-test) selfTest ;;
 -*) fail "usage: scripts/equality.sh [BASE_COMMIT | --self-test]" ;;
-*) compareAll "${1:-d48da0d}" ;;
+*) compareAll "${1:-HEAD~1}" ;;
 esac
