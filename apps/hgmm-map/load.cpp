@@ -14,7 +14,8 @@ mrpt::maps::CHGMMOccupancyMap loadMap(const std::string& file) {
 
 const hgmm::Mixture<3>& levelOf(const hgmm::Map& map, std::size_t level,
                                 const std::string& file) {
-    if (map.empty()) throw std::runtime_error(file + ": the map is empty");
+    if (map.empty() && map.coverageBytes() == 0)
+        throw std::runtime_error(file + ": the map is empty");
     if (level >= map.levelCount())
         throw std::runtime_error(file + ": has no level " + std::to_string(level) +
                                  "; its levels are 0 to " +

@@ -140,6 +140,7 @@ TEST(Memory, BytesOfLevel0AreThoseOfTheSavedMapButForItsHeader) {
     ASSERT_GT(map.freeMixture().size(), 100U);
     const auto components = double(map.save().size() - header);
     EXPECT_NEAR(double(levelBytes(map, 0)), components, 0.05 * components);
+    EXPECT_GT(map.coverageBytes(), 500U);
     // One kind alone must not hide behind the other.
     const auto free = double(kFreeBytes * map.freeMixture().size());
     EXPECT_GT(free, 0.1 * components);
@@ -154,8 +155,9 @@ TEST(Memory, ALevelIsItsSurfaceAndItsFreeSpace) {
     hgmm::Map map;
     map.insert(scan);
     for (std::size_t level = 0; level < map.levelCount(); ++level)
-        EXPECT_EQ(levelBytes(map, level),
-                  20 * map.mixture(level).size() + 23 * map.freeMixture(level).size());
+        EXPECT_EQ(levelBytes(map, level), 20 * map.mixture(level).size() +
+                                              23 * map.freeMixture(level).size() +
+                                              map.coverageBytes(level));
     EXPECT_EQ(levelBytes(hgmm::Map(), 0), 0U);
     EXPECT_THROW(levelBytes(map, map.levelCount()), std::out_of_range);
 }

@@ -150,7 +150,9 @@ TEST(FreeSpace, CellsShrinkNearSurfaces) {
         for (double y = -1; y < 1.5; y += 0.25) floor.update(n++, {x, y, 0.05});
     const auto cells = [&](const SurfacePyramid& pyramid) {
         FreeSpace space;
-        space.insert({ray}, {0, 0.3, 0.3}, pyramid, {}, {});
+        FreeSpaceParams params;
+        params.freeCellAtOneMetre_m = 0.4;
+        space.insert({ray}, {0, 0.3, 0.3}, pyramid, {}, params);
         return space.mixture().size();
     };
     EXPECT_LT(cells(open), 12U);

@@ -103,11 +103,11 @@ TEST(ModalityIo, AFreshCopyMayBeAskedByManyThreads) {
     }
 }
 
-TEST(ModalityIo, MapsWithoutModalitiesAreSavedAsBefore) {
+TEST(ModalityIo, AllMapsAreSavedInTheNewestVersion) {
     Map map;
     map.insert(paintedWall({{"r", plain(0.5)}}));
-    EXPECT_EQ(versionOf(map.save()), 2U);
-    EXPECT_EQ(versionOf(colouredMap().save()), 3U);
+    EXPECT_EQ(versionOf(map.save()), 4U);
+    EXPECT_EQ(versionOf(colouredMap().save()), 4U);
 }
 
 TEST(ModalityIo, ParametersAreKept) {

@@ -43,15 +43,16 @@ TEST(OptionTable, HoldsEveryFieldOfEveryStruct) {
     EXPECT_EQ(bytesOfRows<HierarchyParams>(), sizeof(int) + 4 * sizeof(double));
     EXPECT_EQ(padded(bytesOfRows<FreeSpaceBandParams>()), sizeof(FreeSpaceBandParams));
     EXPECT_EQ(padded(bytesOfRows<FreeSpaceParams>()), sizeof(FreeSpaceParams));
+    EXPECT_EQ(padded(bytesOfRows<CoverageParams>()), sizeof(CoverageParams));
     EXPECT_EQ(padded(bytesOfRows<OccupancyParams>()) + sizeof(FreeSpaceBandParams) +
-                  sizeof(FreeSpaceParams),
+                  sizeof(FreeSpaceParams) + sizeof(CoverageParams),
               sizeof(OccupancyParams));
     EXPECT_EQ(padded(bytesOfRows<CarvingParams>()), sizeof(CarvingParams));
     EXPECT_EQ(padded(bytesOfRows<ModalityParams>()), sizeof(ModalityParams));
     std::size_t stages = 0;
     const MapParams params;
     forEachStage([&](const auto&) { ++stages; }, params);
-    EXPECT_EQ(stages, 11U);
+    EXPECT_EQ(stages, 12U);
 }
 
 TEST(OptionTable, NamesFieldsAndDefaultsAreEachTheirOwn) {
@@ -111,7 +112,7 @@ TEST(OptionTable, EveryNumberIsRefusedOutsideOfItsRangeByName) {
         field = kept;
         EXPECT_NO_THROW(params.validate());
     });
-    EXPECT_EQ(numbers, 31U);
+    EXPECT_EQ(numbers, 32U);
 }
 
 TEST(OptionTable, MessagesSayNameValueAndRange) {
@@ -183,6 +184,7 @@ std::vector<double*> lengthsOf(MapParams& params) {
             &params.cells.minCell_m,
             &params.occupancy.band.bandBase_m,
             &params.occupancy.freeSpace.freeCellAtOneMetre_m,
+            &params.occupancy.coverage.coverageCellAtOneMetre_m,
             &params.modality.modalityLeafAtOneMetre_m};
 }
 

@@ -8,7 +8,7 @@ Memory memoryOf(const Map& map) {
 
 std::size_t levelBytes(const Map& map, std::size_t level) {
     return kSurfaceBytes * map.mixture(level).size() +
-           kFreeBytes * map.freeMixture(level).size();
+           kFreeBytes * map.freeMixture(level).size() + map.coverageBytes(level);
 }
 
 }  // namespace hgmm::evaluation

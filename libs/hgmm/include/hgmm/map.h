@@ -64,10 +64,10 @@ class HGMM_EXPORT Map {
     void setParams(const MapParams& params);
 
     /// Filter -> novelty split -> { known: update | novel: EM, hierarchy, append |
-    /// oversized: lose support }, then free space, then carving of surfaces that rays
-    /// passed through; modalities, which are models of their own, at the same time. Throws
-    /// std::invalid_argument for a malformed scan (Scan::validate), leaving the map as it
-    /// was; a scan without usable points changes nothing.
+    /// oversized: lose support }, then free space and coverage, then carving of surfaces
+    /// that rays passed through; modalities, which are models of their own, at the same
+    /// time. Throws std::invalid_argument for a malformed scan (Scan::validate), leaving
+    /// the map as it was; a scan without usable points changes nothing.
     InsertReport insert(const Scan& scan);
     /// The same for a scan whose samples are at hand, samplesOf(scan, params()): many maps
     /// can share them. Modalities learn nothing. Throws std::invalid_argument for a pose
@@ -78,8 +78,9 @@ class HGMM_EXPORT Map {
     ///
     /// A surface component joins the one that it resembles most, as seen from the same
     /// side and before the merge, if KL is within params().hierarchy.similarityMax either
-    /// way; others are added. Free space joins cell by cell. Nothing is forgotten: rays are
-    /// gone, so where one map is free and the other occupied, both stay.
+    /// way; others are added. Free space and coverage join cell by cell. Nothing is
+    /// forgotten: rays are gone, so where one map is free and the other occupied, both
+    /// stay.
     ///
     /// @param T_this_other pose of the other map's frame in this one's
     /// Throws std::invalid_argument for a pose that is not finite or not rigid; nothing
@@ -110,6 +111,9 @@ class HGMM_EXPORT Map {
     /// Free-space components over (X, W) (thesis 4.2) of a level, in the local frame. As
     /// for mixture().
     const Mixture<4>& freeMixture(std::size_t level = 0) const;
+    /// Size of a level's coverage, where rays passed, as it is saved compactly [bytes].
+    /// Throws std::out_of_range for a level that does not exist.
+    std::size_t coverageBytes(std::size_t level = 0) const;
 
     /// log p(point) under the base level [nat]. Of components farther than kReachSigmas
     /// only those of the point's cells count: -infinity where there are none. Throws

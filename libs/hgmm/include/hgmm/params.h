@@ -134,26 +134,45 @@ struct FreeSpaceBandParams {
 struct FreeSpaceParams {
     /// Edge of the smallest cells where rays end at range 1 m [m], > 0; grows with the
     /// square root of the range, like those of surfaces (CellParams).
-    double freeCellAtOneMetre_m = 0.4;
+    double freeCellAtOneMetre_m = 1.6;
     /// A free component that holds this many times what a scan would add learns no more
     /// [scans], >= 1: so that something new in long-known free space is soon believed.
-    double freeSettledScans = 64.0;
+    double freeSettledScans = 8.0;
 
     /// Throws std::invalid_argument naming the field.
     HGMM_EXPORT void validate() const;
     HGMM_EXPORT static const OptionTable<FreeSpaceParams>& options();
 };
 
+/// Cells of the space that rays passed. Their edge grows in octaves with the square root
+/// of the distance to the sensor, from half a metre on.
+struct CoverageParams {
+    /// Edge at a distance of 1 m [m], > 0: twice a leaf's (FilterParams), so that the
+    /// samples of a scan leave no gaps.
+    double coverageCellAtOneMetre_m = 0.08;
+
+    /// Throws std::invalid_argument naming the field.
+    HGMM_EXPORT void validate() const;
+    HGMM_EXPORT static const OptionTable<CoverageParams>& options();
+
+    /// Edge of cells at a distance w from the sensor, before it is rounded to an octave
+    /// [m].
+    double edgeAt(double w_m) const {
+        return coverageCellAtOneMetre_m * std::sqrt(std::max(w_m, 0.5));
+    }
+};
+
 /// How a point becomes occupied, free or unknown (thesis 4.3).
 struct OccupancyParams {
     FreeSpaceBandParams band;
     FreeSpaceParams freeSpace;
+    CoverageParams coverage;
     /// A point this far behind a single surface component is as likely unknown as known
     /// [sigma], in [1, 3.9].
     double knownSigmas = 3.0;
-    /// The same for a point beside a surface component, or outside a free one [sigma], in
-    /// [1, knownSigmas]. Components are tiles: evenly filled, one ends at sqrt(3) sigma of
-    /// its extent, while across a surface they are as thick as the noise is.
+    /// The same for a point beside a surface component [sigma], in [1, knownSigmas].
+    /// Components are tiles: evenly filled, one ends at sqrt(3) sigma of its extent, while
+    /// across a surface they are as thick as the noise is.
     double extentSigmas = 2.4;
 
     /// Throws std::invalid_argument naming the field.
@@ -163,9 +182,9 @@ struct OccupancyParams {
 
 /// What becomes of a surface that rays pass through.
 struct CarvingParams {
-    /// Share of its support that a component keeps each time a scan saw through it [1], in
-    /// (0, 1]; 1 = rays never remove surfaces.
-    double carvedSupport = 0.25;
+    /// Share of its support, of which at most 40 hits count, that a component keeps each
+    /// time a scan saw through it [1], in (0, 1]; 1 = rays never remove surfaces.
+    double carvedSupport = 0.05;
     /// A component with less support is dropped, new ones included [count], >= 0.
     double minSupport = 0.5;
 
@@ -234,6 +253,7 @@ void forEachStage(Visitor&& visit, Params&... params) {
     visit(params.hierarchy...);
     visit(params.occupancy.band...);
     visit(params.occupancy.freeSpace...);
+    visit(params.occupancy.coverage...);
     visit(params.occupancy...);
     visit(params.carving...);
     visit(params.modality...);

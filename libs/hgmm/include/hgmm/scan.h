@@ -86,6 +86,8 @@ struct ScanSamples {
     /// there is none. Without it, the ends of a planar laser's walls pass for surfaces
     /// across its plane.
     Eigen::Vector3d normalOfRays_sensor = Eigen::Vector3d::Zero();
+    /// Angle between a ray and the next, where rays are even [rad]; 0 without rays.
+    double raySpacing_rad = 0.0;
 };
 
 /// Uses params.filter and params.cells. Throws std::invalid_argument for a malformed scan

@@ -42,6 +42,13 @@ class LatticeTable {
         return {&slot.value, isNew};
     }
 
+    /// Calls visit(cell, value) for each cell that has one, in no order.
+    template <typename Visitor>
+    void forEach(Visitor&& visit) const {
+        for (const Slot& slot : slots_)
+            if (slot.used()) visit(slot.cell, slot.value);
+    }
+
     /// Removes the value of a cell, if there is one.
     void erase(const LatticeCell& cell) {
         if (slots_.empty()) return;

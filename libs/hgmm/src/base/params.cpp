@@ -27,6 +27,9 @@ void FreeSpaceBandParams::validate() const {
 void FreeSpaceParams::validate() const {
     requireOptionsInRange(*this);
 }
+void CoverageParams::validate() const {
+    requireOptionsInRange(*this);
+}
 void CarvingParams::validate() const {
     requireOptionsInRange(*this);
 }
@@ -37,6 +40,7 @@ void ModalityParams::validate() const {
 void OccupancyParams::validate() const {
     band.validate();
     freeSpace.validate();
+    coverage.validate();
     requireOptionsInRange(*this);
 }
 

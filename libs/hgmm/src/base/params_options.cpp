@@ -104,13 +104,23 @@ const OptionTable<FreeSpaceParams>& FreeSpaceParams::options() {
     return table;
 }
 
+const OptionTable<CoverageParams>& CoverageParams::options() {
+    using P = CoverageParams;
+    static const OptionTable<P> table = {
+        Option<P>("coverageCellAtOneMetre_m", &P::coverageCellAtOneMetre_m, "m", 1e-2, 100,
+                  "edge of the cells of space that rays passed, 1 m from the sensor; grows "
+                  "with the square root of the distance")
+            .followsResolution()};
+    return table;
+}
+
 const OptionTable<OccupancyParams>& OccupancyParams::options() {
     using P = OccupancyParams;
     static const OptionTable<P> table = {
         {"knownSigmas", &P::knownSigmas, "sigma", 1, 3.9,
          "a point this far behind a surface is as likely unknown as known"},
         Option<P>("extentSigmas", &P::extentSigmas, "sigma", 1, 3.9,
-                  "the same beside a surface, and outside of a free component")
+                  "the same beside a surface")
             .notAbove("knownSigmas")};
     return table;
 }

@@ -12,7 +12,7 @@ namespace hgmm {
 /// the sensor.
 class RangeImage {
  public:
-    /// @param samples of one scan, in the frame of `origin`
+    /// @param samples of one scan, where its rays end, in the frame of `origin`
     RangeImage(const Mixture<3>& samples, const Eigen::Vector3d& origin);
 
     /// The nearest measurement in the bin of a direction and the bins beside it [m]; 0
@@ -38,7 +38,7 @@ bool isSeenThrough(const Gaussian<3>& component, const RangeImage& image,
                    const Eigen::Vector3d& origin);
 
 /// Components that a scan saw through, rising; none if params.carvedSupport is 1.
-/// @param samples of the scan, in the frame of the surfaces and of `sensorOrigin`
+/// @param samples where its rays end, in the frame of the surfaces and of `sensorOrigin`
 /// @param grid of the surfaces' means
 std::vector<std::uint32_t> seenThrough(const Mixture<3>& surfaces,
                                        const Mixture<3>& samples,

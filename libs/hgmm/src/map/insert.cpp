@@ -17,6 +17,10 @@ namespace hgmm {
 
 namespace {
 
+/// Hits of a surface beyond this many do not count against rays that pass through it, so
+/// that what stood long goes as soon as what stood briefly.
+constexpr float kTrustedHits = 40.F;
+
 /// Local frames start on a lattice of whole metres, so that poses relative to it are exact.
 Eigen::Vector3d latticePoint(const Eigen::Vector3d& p) {
     return p.array().round();
@@ -70,6 +74,21 @@ std::vector<RayBundle> addComponents(ComponentStore& store, const Mixture<3>& no
     return bundles;
 }
 
+/// Where all rays of a scan end, those that clear included, in the local frame.
+Mixture<3> endsOfRays(const Mixture<3>& samples, const ScanSamples& scan,
+                      const Pose& T_local_sensor) {
+    Mixture<3> ends = samples;
+    for (const ClearedRay& ray : scan.clearedRays_sensor) {
+        Gaussian<3> end;
+        end.support = 1.0;
+        end.mean = T_local_sensor.t +
+                   T_local_sensor.R * (double(ray.length_m) * ray.direction.cast<double>());
+        end.covariance.setIdentity();
+        ends.pushBack(end);
+    }
+    return ends;
+}
+
 /// Removes those of `weakened` that are left with too little support. Returns how many.
 std::size_t removeWeak(ComponentStore& store, std::vector<std::uint32_t> weakened,
                        double minSupport) {
@@ -93,7 +112,7 @@ void insertSamples(const ScanSamples& scan, const Pose& T_local_sensor, Model& m
     ComponentStore& store = model.components;
     report.points = scan.points;
     report.samples = scan.samples_sensor.size();
-    if (scan.samples_sensor.empty()) return;
+    if (scan.samples_sensor.empty() && scan.clearedRays_sensor.empty()) return;
     const Eigen::Vector3d& sensorOrigin = T_local_sensor.t;
     const Mixture<3> samples = transformed(scan.samples_sensor, T_local_sensor);
     const ThicknessLimit limit{params.novelty.maxThickness, params.cells, params.filter,
@@ -124,13 +143,15 @@ void insertSamples(const ScanSamples& scan, const Pose& T_local_sensor, Model& m
     report.novelSamples = split.novel.size();
     cache.apply(store.takeChanges());
 
+    markRays(samples, scan, T_local_sensor, params.occupancy.coverage, model.coverage);
     const std::vector<std::uint32_t> updatedFree =
         model.freeSpace.insert(bundles, sensorOrigin, cache.pyramid(),
                                params.occupancy.band, params.occupancy.freeSpace);
-    for (const std::uint32_t i : seenThrough(store.surfaces(), samples, sensorOrigin,
-                                             cache.grid(), params.carving)) {
-        store.setSupport(i, static_cast<float>(store.surfaces().support[i] *
-                                               params.carving.carvedSupport));
+    for (const std::uint32_t i :
+         seenThrough(store.surfaces(), endsOfRays(samples, scan, T_local_sensor),
+                     sensorOrigin, cache.grid(), params.carving)) {
+        const double trusted = std::min(store.surfaces().support[i], kTrustedHits);
+        store.setSupport(i, static_cast<float>(trusted * params.carving.carvedSupport));
         weakened.push_back(i);
         ++report.componentsCarved;
     }
@@ -155,7 +176,7 @@ InsertReport Map::insert(const Scan& scan) {
                           state_->cache, report);
         },
         [&] { model.modalities.insert(scan, T_local_sensor, model.params); });
-    if (report.samples > 0) model.origin = origin;
+    if (!model.isBlank()) model.origin = origin;
     return report;
 }
 
@@ -166,7 +187,7 @@ InsertReport Map::insert(const ScanSamples& scan, const Pose& T_map_sensor) {
     const Eigen::Vector3d origin = originWith(model, T_map_sensor);
     insertSamples(scan, {T_map_sensor.R, T_map_sensor.t - origin}, model, state_->cache,
                   report);
-    if (report.samples > 0) model.origin = origin;
+    if (!model.isBlank()) model.origin = origin;
     return report;
 }
 

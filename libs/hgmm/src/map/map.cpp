@@ -53,13 +53,13 @@ const Eigen::Vector3d& Map::origin() const {
 std::size_t Map::liveBytes() const {
     const Model& model = state_->model;
     return sizeof(Map) + sizeof(State) + model.components.liveBytes() +
-           model.freeSpace.liveBytes() + model.modalities.liveBytes() +
-           state_->cache.liveBytes();
+           model.freeSpace.liveBytes() + model.coverage.liveBytes() +
+           model.modalities.liveBytes() + state_->cache.liveBytes();
 }
 
 bool Model::operator==(const Model& o) const {
     return params == o.params && origin == o.origin && components == o.components &&
-           freeSpace == o.freeSpace && modalities == o.modalities;
+           freeSpace == o.freeSpace && coverage == o.coverage && modalities == o.modalities;
 }
 
 bool Map::operator==(const Map& o) const {

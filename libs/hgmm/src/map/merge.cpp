@@ -91,6 +91,7 @@ void Map::merge(const Map& other, const Pose& T_this_other) {
     for (std::size_t i = 0; i < from.freeSpace.mixture().size(); ++i)
         updatedFree.push_back(model.freeSpace.merge(
             moved(from.freeSpace.mixture()[i], T_local_other), from.freeSpace.octave(i)));
+    model.coverage.merge(from.coverage, T_local_other);
     std::sort(updatedFree.begin(), updatedFree.end());
     updatedFree.erase(std::unique(updatedFree.begin(), updatedFree.end()),
                       updatedFree.end());

@@ -6,6 +6,7 @@
 #include "map/component_store.h"
 #include "map/query_cache.h"
 #include "modality/modalities.h"
+#include "occupancy/coverage.h"
 #include "occupancy/free_space.h"
 
 namespace hgmm {
@@ -17,11 +18,12 @@ struct Model {
     Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m]
     ComponentStore components;
     FreeSpace freeSpace;
+    Coverage coverage;
     Modalities modalities;
 
     /// Whether the local frame may still be anywhere.
     bool isBlank() const {
-        return components.empty() && freeSpace.mixture().empty() &&
+        return components.empty() && freeSpace.mixture().empty() && coverage.empty() &&
                modalities.groups().empty();
     }
     bool operator==(const Model& o) const;

@@ -1,9 +1,11 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "hgmm/map.h"
 #include "hgmm/params.h"
+#include "io/coverage_codec.h"
 #include "map/model.h"
 
 namespace hgmm {
@@ -42,6 +44,15 @@ const Mixture<4>& Map::freeMixture(std::size_t level) const {
     return state_->model.freeSpace.mixture();
 }
 
+std::size_t Map::coverageBytes(std::size_t level) const {
+    requireLevel(level, levelCount());
+    const Coverage& coverage =
+        level == 0 ? state_->model.coverage : state_->cache.coverage(level);
+    std::vector<std::uint8_t> bytes;
+    if (!coverage.empty()) encodeCoverage(coverage.pruned(), bytes);
+    return bytes.size();
+}
+
 double Map::logDensity(const Eigen::Vector3d& point_map) const {
     if (empty()) return -std::numeric_limits<double>::infinity();
     const ComponentIndex& index = state_->cache.index();
@@ -57,14 +68,14 @@ double Map::logDensity(const Eigen::Vector3d& point_map) const {
 
 Occupancy Map::occupancy(const Eigen::Vector3d& point_map, std::size_t level) const {
     requireLevel(level, levelCount());
-    if (empty()) return {};
+    if (state_->model.isBlank()) return {};
     return state_->cache.occupancy(level).at(point_map - origin());
 }
 
 void Map::occupancy(const Eigen::Vector3d* points_map, std::size_t n, Occupancy* answers,
                     std::size_t level) const {
     requireLevel(level, levelCount());
-    if (empty()) {
+    if (state_->model.isBlank()) {
         std::fill(answers, answers + n, Occupancy{});
         return;
     }

@@ -87,6 +87,7 @@ QueryCache::Level& QueryCache::upperLevel(std::size_t level) const {
     upper.viewDirections =
         viewDirectionsOfLevel(model_.components, blocks_.parentOf(level), size);
     upper.free = model_.freeSpace.coarsened(static_cast<int>(level));
+    upper.coverage = model_.coverage.coarsened(static_cast<int>(level + 1) / 2);
     upper.hasFeatures = true;
     return upper;
 }
@@ -101,6 +102,11 @@ const Mixture<4>& QueryCache::freeMixture(std::size_t level) const {
     return upperLevel(level).free;
 }
 
+const Coverage& QueryCache::coverage(std::size_t level) const {
+    const std::lock_guard<std::mutex> lock(levelsMutex_);
+    return upperLevel(level).coverage;
+}
+
 const OccupancyModel& QueryCache::occupancy(std::size_t level) const {
     return levelAt(level).occupancy.get([this, level] { return makeOccupancy(level); });
 }
@@ -111,7 +117,8 @@ std::unique_ptr<OccupancyModel> QueryCache::makeOccupancy(std::size_t level) con
     const ViewDirections& views =
         isBase ? model_.components.viewDirections() : viewDirections(level);
     const Mixture<4>& free = isBase ? model_.freeSpace.mixture() : freeMixture(level);
-    auto made = std::make_unique<OccupancyModel>(model_.params.occupancy);
+    const Coverage& coverage = isBase ? model_.coverage : this->coverage(level);
+    auto made = std::make_unique<OccupancyModel>(model_.params.occupancy, coverage);
     for (std::uint32_t i = 0; i < surfaces.size(); ++i)
         made->updateSurface(i, surfaces[i], views[i]);
     for (std::uint32_t i = 0; i < free.size(); ++i) made->updateFree(i, free[i]);

@@ -35,6 +35,7 @@ class QueryCache {
     const Mixture<3>& mixture(std::size_t level) const;
     const ViewDirections& viewDirections(std::size_t level) const;
     const Mixture<4>& freeMixture(std::size_t level) const;
+    const Coverage& coverage(std::size_t level) const;
     const OccupancyModel& occupancy(std::size_t level) const;
 
     /// Follows the model. Not for concurrent use, as the model's changes are not.
@@ -58,6 +59,7 @@ class QueryCache {
     struct Level {
         ViewDirections viewDirections;
         Mixture<4> free;
+        Coverage coverage;
         bool hasFeatures = false;  ///< the above are there; upper levels only
         Lazy<OccupancyModel> occupancy;
     };

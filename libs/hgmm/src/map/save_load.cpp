@@ -7,9 +7,11 @@
 #include "base/byte_stream.h"
 #include "hgmm/map.h"
 #include "io/component_codec.h"
+#include "io/coverage_codec.h"
 #include "io/exact_codec.h"
 #include "io/modality_archive.h"
 #include "map/model.h"
+#include "occupancy/coverage_guess.h"
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "saved maps are little-endian");
 static_assert(std::numeric_limits<float>::is_iec559 &&
@@ -32,10 +34,13 @@ namespace {
 //   compact: u64 bytes, then encodeSurfaces; twice u64 bytes, then encodeFree, the second
 //   empty
 // version 3 goes on:
-//   modalities (putModalities). Maps that model none are written as version 2.
+//   modalities (putModalities); maps that model none were written as version 2
+// version 4 has, behind free space:
+//   u64 bytes, then encodeCoverage, whatever the encoding
+// and ends with modalities, whether it models any or not.
 // An exact mixture is that of putMixture.
 constexpr char kMagic[4] = {'H', 'G', 'M', 'M'};
-constexpr std::uint32_t kVersion = 3, kWithoutModalities = 2;
+constexpr std::uint32_t kVersion = 4, kWithoutModalities = 2, kWithCoverage = 4;
 constexpr std::size_t kHeader = 24;
 
 [[noreturn]] void refuse(const RetiredOption& option) {
@@ -239,14 +244,18 @@ std::vector<std::uint8_t> Map::save(Encoding encoding) const {
     std::vector<std::uint8_t> buffer;
     Writer out(buffer);
     out.put(kMagic, sizeof(kMagic));
-    out.put(model.params.modalities.empty() ? kWithoutModalities : kVersion);
+    out.put(kVersion);
     out.put(std::uint64_t{0});
     out.put(std::uint64_t{0});
     putParams(out, model.params);
     out.put(model.origin.data(), 3);
     putComponents(out, model, encoding);
-    if (!model.params.modalities.empty())
-        putModalities(out, model.params, model.modalities, encoding);
+    putSection(out, [&](auto& bytes) {
+        encodeCoverage(
+            encoding == Encoding::compact ? model.coverage.pruned() : model.coverage,
+            bytes);
+    });
+    putModalities(out, model.params, model.modalities, encoding);
 
     const std::uint64_t size = buffer.size();
     const std::uint64_t sum = checksum(buffer.data() + kHeader, size - kHeader);
@@ -263,6 +272,14 @@ Map Map::load(const std::uint8_t* data, std::size_t size) try {
     in.get(model.origin.data(), 3);
     if (!model.origin.allFinite()) throw FormatError("saved map: its origin is not finite");
     getComponents(in, version, model);
+    if (version < kWithCoverage)
+        model.coverage =
+            guessedCoverage(model.components.surfaces(), model.components.viewDirections(),
+                            model.freeSpace.mixture(), model.params.occupancy);
+    else
+        getSection(in, [&](const std::uint8_t* bytes, std::size_t n) {
+            return decodeCoverage(bytes, n, model.coverage);
+        });
     if (version > kWithoutModalities) model.modalities = getModalities(in, model.params);
     if (in.left() != 0) throw FormatError("saved map: bytes are left over at its end");
     return map;

@@ -15,7 +15,7 @@ using RayBundle = Gaussian<3>;
 
 /// The default free-space model: a mixture over (X, W) whose components grow with the
 /// distance to the surfaces around them, so that their number depends on the area of what
-/// was seen, not on ranges, and none reaches through a wall.
+/// was seen, not on ranges. Where rays passed is for Coverage to say.
 ///
 /// Each bundle of rays is cut into slabs from the reach of its surface's band to the
 /// sensor. A slab belongs to a cell of a lattice whose edge is the octave of W, or smaller

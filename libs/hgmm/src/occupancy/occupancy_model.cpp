@@ -14,11 +14,29 @@ namespace {
 constexpr double kSqrtTwoPi = 2.5066282746310002;
 
 constexpr double kSigmas = OccupancyModel::kSigmas;
+/// Of points that rays passed and that no component answers for [1/m^3].
+constexpr double kPassedDensity = 0.05;
+/// A tile of a surface, evenly filled, ends at sqrt(3) sigma.
+constexpr double kTileSigmas2 = 3.0;
+/// Cells of coverage reach at most this far past a surface, in edges at its range: some
+/// were marked from farther away.
+constexpr double kSideCells = 1.5;
+/// Whether space is open behind a surface is looked up this far behind it, in those
+/// reaches.
+constexpr double kBeyond = 1.3;
 const double kCutDensity = std::exp(-0.5 * kSigmas * kSigmas);
 
 template <typename T>
 T square(const T& v) {
     return v * v;
+}
+
+/// 0 up to `low`, 1 from `high` on, linear between.
+template <typename T>
+T ramp(const T& v, double low, double high) {
+    if (!(valueOf(v) > low)) return 0.0;
+    if (!(valueOf(v) < high)) return 1.0;
+    return (v - low) / (high - low);
 }
 
 /// A relative density that reaches zero where the index ends, so that nothing jumps there.
@@ -49,8 +67,9 @@ float peakOf(double support, double logNormalizer) {
 
 }  // namespace
 
-OccupancyModel::OccupancyModel(const OccupancyParams& params)
+OccupancyModel::OccupancyModel(const OccupancyParams& params, const Coverage& coverage)
     : params_(params),
+      coverage_(coverage),
       unknownDensity_(std::exp(-0.5 * square(params.knownSigmas))),
       sharpness_(square(params.knownSigmas / params.extentSigmas)) {
     params.validate();
@@ -82,6 +101,8 @@ void OccupancyModel::updateSurface(std::uint32_t i, const Gaussian<3>& surface,
     for (const float v : band.v) band.viewPrecision += v * v;
     band.width_m = static_cast<float>(params_.band.width(view.range_m));
     band.reach_m = static_cast<float>(params_.band.reach(view.range_m));
+    for (int d = 0; d < 3; ++d) band.view[d] = static_cast<float>(view.direction[d]);
+    band.side_m = static_cast<float>(kSideCells * params_.coverage.edgeAt(view.range_m));
     band.freePerMetre = static_cast<float>(params_.band.freePerMetre(view.range_m));
 
     if (i == bands_.size()) bands_.emplace_back();
@@ -91,9 +112,9 @@ void OccupancyModel::updateSurface(std::uint32_t i, const Gaussian<3>& surface,
     extents_[i] = boxAround(surface.mean, surface.mean, extent);
     bounds_.reset();
     surfaceBoxes_.update(i, extents_[i]);
-    const Eigen::Vector3d end =
-        surface.mean + (view.known() ? band.reach_m : 0.F) * view.direction;
-    bandBoxes_.update(i, boxAround(surface.mean, end, extent));
+    const Eigen::Vector3d front = (view.known() ? band.reach_m : 0.F) * view.direction;
+    const Eigen::Vector3d back = (view.known() ? -band.side_m : 0.F) * view.direction;
+    bandBoxes_.update(i, boxAround(surface.mean + back, surface.mean + front, extent));
 }
 
 void OccupancyModel::truncateSurfaces(std::size_t n) {
@@ -144,26 +165,42 @@ void OccupancyModel::addBand(const Band& band, const T* x, Sums<T>& sums) const 
     const T low = -1.0 * t / tau, high = (reach - t) / tau;
     const T mass = normalMass(low, high);
     const T fall = valueOf(t) > band.width_m ? double(band.width_m) / t : T(1.0);
-    const T occupied = double(band.peak) * column * hit;
     const T free = double(band.peak) * column * mass *
                    (tau * kSqrtTwoPi * double(band.freePerMetre)) * fall;
-    sums.occupied += occupied;
-    sums.free += free;
-    const T outside = valueOf(t) < 0 ? t : valueOf(t) > reach ? t - reach : T(0.0);
-    sums.known +=
-        tapered(exp(-0.5 * (sharpness_ * beside + precision * outside * outside)));
+    sums.occupied += double(band.peak) * column * hit;
+    sums.known += tapered(exp(-0.5 * sharpness_ * beside) * hit);
+    addSide(band, t, beside, sums.sides);
 
     // W is 0 for hits, and N(t, tau^2) cut to [0, reach] for free points.
     const double z = valueOf(mass), a = valueOf(low), b = valueOf(high);
-    if (!(z > 1e-12)) return;
-    const double pa = std::exp(-0.5 * a * a) / kSqrtTwoPi;
-    const double pb = std::exp(-0.5 * b * b) / kSqrtTwoPi;
-    const double shift = (pa - pb) / z;
-    const double mean = valueOf(t) + tau * shift;
-    const double variance =
-        std::max(0.0, tau * tau * (1 + (a * pa - b * pb) / z - shift * shift));
-    sums.distance += valueOf(free) * mean;
-    sums.squaredDistance += valueOf(free) * (mean * mean + variance);
+    double meanW = 0, squaredW = 0;
+    if (z > 1e-12) {
+        const double pa = std::exp(-0.5 * a * a) / kSqrtTwoPi;
+        const double pb = std::exp(-0.5 * b * b) / kSqrtTwoPi;
+        const double shift = (pa - pb) / z;
+        meanW = valueOf(t) + tau * shift;
+        squaredW = square(meanW) +
+                   square(tau) * std::max(0.0, 1 + (a * pa - b * pb) / z - square(shift));
+    }
+    sums.atHits.add(free * hit, meanW, squaredW);
+    sums.passed.add(free * (1.0 - hit), meanW, squaredW);
+}
+
+template <typename T>
+void OccupancyModel::addSide(const Band& band, const T& height, const T& beside,
+                             Sides<T>& sides) const {
+    const bool isFront = valueOf(height) > 0;
+    const double tau = 1.0 / std::sqrt(double(band.viewPrecision)), end = band.side_m;
+    const T distance = isFront ? height : -1.0 * height;
+    const T over = 1.0 - ramp(beside, kTileSigmas2, square(params_.extentSigmas));
+    const T side =
+        over * ramp(distance, tau, 2 * tau) * (1.0 - ramp(distance, 0.8 * end, end));
+    if (!(valueOf(side) > 0)) return;
+    if (isFront) return sides.addFront(side);
+    double beyond[3];
+    for (int d = 0; d < 3; ++d)
+        beyond[d] = double(band.whitened.mean(d)) - kBeyond * end * double(band.view[d]);
+    sides.addBehind(side, band.view, coverage_.at(beyond));
 }
 
 template <typename T>
@@ -181,13 +218,9 @@ void OccupancyModel::addFree(const Joint& joint, const T* x, Sums<T>& sums) cons
         squared += whitened * whitened;
     }
     if (valueOf(squared) > kSigmas * kSigmas) return;
-    const T relative = exp(-0.5 * squared);
-    const T density = double(joint.peak) * relative;
-    sums.known += tapered(exp(-0.5 * sharpness_ * squared));
-    sums.free += density;
-    const double m = valueOf(meanW), weight = valueOf(density);
-    sums.distance += weight * m;
-    sums.squaredDistance += weight * (m * m + double(joint.varianceW_m2));
+    const double m = valueOf(meanW);
+    sums.passed.add(double(joint.peak) * exp(-0.5 * squared), m,
+                    m * m + double(joint.varianceW_m2));
 }
 
 template <typename T>
@@ -203,23 +236,41 @@ OccupancyModel::Sums<T> OccupancyModel::sums(const T* x) const {
     return sums;
 }
 
-Occupancy OccupancyModel::at(const Eigen::Vector3d& point) const {
-    Occupancy answer;
-    if (!point.allFinite()) return answer;
-    const Sums<double> s = sums(point.data());
-    const double total = s.occupied + s.free;
-    if (!(total > 1e-300)) return answer;
-    const double seen = s.known / (s.known + unknownDensity_) / total;
-    // thesis eq. (4.15), (4.16)
-    answer.occupied = static_cast<float>(std::clamp(s.occupied * seen, 0.0, 1.0));
-    answer.free = std::min(static_cast<float>(std::clamp(s.free * seen, 0.0, 1.0)),
-                           1.F - answer.occupied);
-    answer.unknown = std::max(0.F, 1.F - answer.occupied - answer.free);
-    const double mean = s.distance / total;  // thesis eq. (4.17)
-    answer.distance_m = static_cast<float>(mean);
-    answer.variance_m2 = static_cast<float>(
-        std::max(0.0, s.squaredDistance / total - mean * mean));  // thesis eq. (4.18)
+template <typename T>
+OccupancyModel::Answer<T> OccupancyModel::answer(const T* x) const {
+    Answer<T> answer;
+    const Sums<T> s = sums(x);
+    const T coverage = coverage_.at(x) * (1.0 - s.sides.shadow());
+    const T free = s.atHits.density + coverage * (s.passed.density + kPassedDensity);
+    const T total = s.occupied + free;
+    if (!(valueOf(total) > 1e-300)) return answer;
+    const T known = 1.0 - unknownDensity_ / (s.known + unknownDensity_) * (1.0 - coverage);
+    answer.occupied = s.occupied / total * known;  // thesis eq. (4.15)
+    answer.free = free / total * known;            // thesis eq. (4.16)
+
+    const double c = valueOf(coverage);
+    const double weight =
+        valueOf(s.occupied) + valueOf(s.atHits.density) + c * valueOf(s.passed.density);
+    if (!(weight > 1e-300)) return answer;
+    answer.distance_m =  // thesis eq. (4.17)
+        (s.atHits.distance + c * s.passed.distance) / weight;
+    answer.variance_m2 =  // thesis eq. (4.18)
+        std::max(0.0, (s.atHits.squaredDistance + c * s.passed.squaredDistance) / weight -
+                          square(answer.distance_m));
     return answer;
+}
+
+Occupancy OccupancyModel::at(const Eigen::Vector3d& point) const {
+    Occupancy result;
+    if (!point.allFinite()) return result;
+    const Answer<double> a = answer(point.data());
+    result.occupied = static_cast<float>(std::clamp(a.occupied, 0.0, 1.0));
+    result.free =
+        std::min(static_cast<float>(std::clamp(a.free, 0.0, 1.0)), 1.F - result.occupied);
+    result.unknown = std::max(0.F, 1.F - result.occupied - result.free);
+    result.distance_m = static_cast<float>(a.distance_m);
+    result.variance_m2 = static_cast<float>(a.variance_m2);
+    return result;
 }
 
 Eigen::Vector3d OccupancyModel::gradient(const Eigen::Vector3d& point) const {
@@ -227,10 +278,7 @@ Eigen::Vector3d OccupancyModel::gradient(const Eigen::Vector3d& point) const {
     const Dual x[3] = {{point.x(), Eigen::Vector3d::UnitX()},
                        {point.y(), Eigen::Vector3d::UnitY()},
                        {point.z(), Eigen::Vector3d::UnitZ()}};
-    const Sums<Dual> s = sums(x);
-    const Dual total = s.occupied + s.free;
-    if (!(total.value > 1e-300)) return Eigen::Vector3d::Zero();
-    const Dual occupied = s.occupied / total * s.known / (s.known + unknownDensity_);
+    const Dual occupied = answer(x).occupied;
     return occupied.gradient.allFinite() ? occupied.gradient
                                          : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }

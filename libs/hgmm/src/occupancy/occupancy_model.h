@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/dual.h"
 #include "base/lazy.h"
 #include "hgmm/distance.h"
 #include "hgmm/gaussian.h"
@@ -10,7 +11,9 @@
 #include "hgmm/regression.h"
 #include "hgmm/view_directions.h"
 #include "index/box_index.h"
+#include "occupancy/coverage.h"
 #include "occupancy/free_space.h"
+#include "occupancy/sides.h"
 
 namespace hgmm {
 
@@ -20,10 +23,13 @@ namespace hgmm {
 ///
 /// A surface component's W is evaluated exactly as FreeSpaceBandParams describes it.
 ///
-/// The unexplored has a prior: at a point where components have the densities p_j(x),
-/// relative to their own peaks (and sharpened along their extents, see extentSigmas), what
-/// they say counts K / (K + k), K = sum_j p_j(x) and k = exp(-knownSigmas^2 / 2). It
-/// depends neither on the size of the map nor on counts.
+/// The unexplored has a prior. Mixtures say only how likely a point is occupied or free;
+/// that it is known at all is for coverage to say, C(x) (Coverage), and within the
+/// thickness of a surface for its hits: K = sum_j p_j(x), of their densities relative to
+/// their own peaks (and sharpened along their extents, see extentSigmas). What the mixtures
+/// say counts 1 - (1 - C) k / (K + k), k = exp(-knownSigmas^2 / 2). Free densities beyond
+/// the thickness of surfaces count C times. It depends neither on the size of the map nor
+/// on counts.
 ///
 /// Positions are in the local frame. Const member functions may be called from several
 /// threads at once.
@@ -32,8 +38,9 @@ class OccupancyModel {
     /// Components are felt up to this distance [sigma].
     static constexpr double kSigmas = kReachSigmas;
 
+    /// @param coverage read whenever asked; must outlive the model
     /// Throws std::invalid_argument naming the field.
-    explicit OccupancyModel(const OccupancyParams& params);
+    OccupancyModel(const OccupancyParams& params, const Coverage& coverage);
 
     /// Enters or re-enters surface component i <= number of those entered.
     void updateSurface(std::uint32_t i, const Gaussian<3>& surface,
@@ -58,9 +65,11 @@ class OccupancyModel {
     /// A surface component with its band, whitened: v is its view.
     struct Band {
         WhitenedGaussian<3, float> whitened;
-        std::array<float, 3> v{};   ///< zero without a view
-        float viewPrecision = 0.F;  ///< |v|^2 = u^T Sigma^-1 u [1/m^2]
+        std::array<float, 3> v{};     ///< zero without a view
+        float viewPrecision = 0.F;    ///< |v|^2 = u^T Sigma^-1 u [1/m^2]
+        std::array<float, 3> view{};  ///< unit vector
         float width_m = 0.F, reach_m = 0.F;
+        float side_m = 0.F;  ///< so far to each side it tells which side a point is on
         float freePerMetre = 0.F;
         float peak = 0.F;  ///< support times density at the mean [1/m^3]
     };
@@ -71,12 +80,32 @@ class OccupancyModel {
         float meanW_m = 0.F, varianceW_m2 = 0.F;
         float peak = 0.F;  ///< support times density at the mean [1/m^3]
     };
+    /// A density of free points with the moments of their W.
+    template <typename T>
+    struct FreeDensity {
+        T density = 0.0;                               ///< [1/m^3]
+        double distance = 0.0, squaredDistance = 0.0;  ///< W and W^2, times the density
+
+        void add(const T& more, double meanW, double meanSquaredW) {
+            density += more;
+            distance += valueOf(more) * meanW;
+            squaredDistance += valueOf(more) * meanSquaredW;
+        }
+    };
     /// Sums over components, all relative to their supports.
     template <typename T>
     struct Sums {
-        T occupied = 0.0, free = 0.0;  ///< density [1/m^3]
-        T known = 0.0;                 ///< K
-        double distance = 0.0, squaredDistance = 0.0;
+        T occupied = 0.0;       ///< density [1/m^3]
+        FreeDensity<T> atHits;  ///< within the thickness of a surface
+        FreeDensity<T> passed;  ///< elsewhere: it counts as far as rays passed
+        T known = 0.0;          ///< K_hit
+        Sides<T> sides;
+    };
+    /// The same, weighed by coverage.
+    template <typename T>
+    struct Answer {
+        T occupied = 0.0, free = 0.0;  ///< probabilities
+        double distance_m = 0.0, variance_m2 = 0.0;
     };
     struct Bounds {
         std::array<float, 3> low, high;  ///< [m]
@@ -90,7 +119,11 @@ class OccupancyModel {
     template <typename T>
     Sums<T> sums(const T* x) const;
     template <typename T>
+    Answer<T> answer(const T* x) const;
+    template <typename T>
     void addBand(const Band& band, const T* x, Sums<T>& sums) const;
+    template <typename T>
+    void addSide(const Band& band, const T& height, const T& beside, Sides<T>& sides) const;
     template <typename T>
     void addFree(const Joint& joint, const T* x, Sums<T>& sums) const;
     /// First and last distance at which the line from `start` along `direction` may meet a
@@ -109,6 +142,7 @@ class OccupancyModel {
     static Joint jointOf(const Gaussian<4>& g);
 
     OccupancyParams params_;
+    const Coverage& coverage_;
     double unknownDensity_;  ///< k
     double sharpness_;       ///< of extents against thickness
     std::vector<Band> bands_;

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "scan/cleared_rays.h"
+#include "scan/ray_spacing.h"
 #include "scan/ring_interpolation.h"
 
 namespace hgmm {
@@ -44,6 +45,7 @@ ScanSamples samplesOf(const Scan& scan, const MapParams& params) {
     interpolateRings(result.samples_sensor, params.cells);
     result.normalOfRays_sensor =
         normalOfRays(result.samples_sensor, result.clearedRays_sensor);
+    result.raySpacing_rad = raySpacing(result.samples_sensor, result.normalOfRays_sensor);
     return result;
 }
 

@@ -21,7 +21,7 @@ struct LevelFigures {
     std::size_t level = 0;
     std::size_t components = 0;      ///< of the surface
     std::size_t componentsFree = 0;  ///< of free space
-    std::size_t bytes = 0;           ///< components alone, saved compactly (levelBytes)
+    std::size_t bytes = 0;    ///< components and coverage, saved compactly (levelBytes)
     double klToLevel0 = 0.0;  ///< KL(level 0 || this level) of the surface [nat], >= 0
     std::optional<double> aucUniform, aucNear;  ///< [0, 1]; none without test points
 };

@@ -23,9 +23,9 @@ Memory memoryOf(const Map& map);
 /// Bytes of a component, with its view, in a map that is saved compactly (Map::save).
 constexpr std::size_t kSurfaceBytes = 20, kFreeBytes = 23;
 
-/// Bytes of the components, surface and free space, that answer queries at one level, as
-/// Map::save would write them: what a map of this level alone would take but for its
-/// parameters. Throws std::out_of_range for a level that does not exist.
+/// Bytes of the components, surface and free space, and of the coverage that answer queries
+/// at one level, as Map::save would write them: what a map of this level alone would take
+/// but for its parameters. Throws std::out_of_range for a level that does not exist.
 std::size_t levelBytes(const Map& map, std::size_t level);
 
 }  // namespace hgmm::evaluation

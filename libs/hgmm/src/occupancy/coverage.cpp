@@ -1,0 +1,248 @@
+#include "occupancy/coverage.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/dual.h"
+#include "base/lattice_walk.h"
+
+namespace hgmm {
+
+namespace {
+
+constexpr std::int32_t kInBlock = (1 << Coverage::kBlockShift) - 1;
+constexpr unsigned kAllCorners = 255;
+
+/// Cells are at least this many spacings of rays wide, so that a sparse sensor leaves no
+/// gaps, but for its sake no wider than the gap that is bridged: things hide in wider ones.
+constexpr double kCellsPerSpacing = 2.0, kWidestGap_m = 0.5;
+/// Nearer to the sensor cells get no smaller [m].
+constexpr double kNearest_m = 0.5;
+
+Coverage::Word bitOf(std::int32_t x, std::int32_t y, std::int32_t z) {
+    const auto bit = (x & kInBlock) | (y & kInBlock) << 2 | (z & kInBlock) << 4;
+    return Coverage::Word{1} << static_cast<unsigned>(bit);
+}
+
+LatticeCell blockOf(const LatticeCell& cell) {
+    constexpr int shift = Coverage::kBlockShift;
+    return {cell.octave, cell.x >> shift, cell.y >> shift, cell.z >> shift};
+}
+
+Eigen::Vector3d centreOf(const LatticeCell& cell) {
+    return (Eigen::Vector3d(cell.x, cell.y, cell.z).array() + 0.5) *
+           powerOfTwo(cell.octave);
+}
+
+/// Calls visit(cell) for the cells of a block that a word has.
+template <typename Visitor>
+void forEachCell(const LatticeCell& block, Coverage::Word word, Visitor&& visit) {
+    for (; word != 0; word &= word - 1) {
+        const int bit = __builtin_ctzll(word);
+        visit(LatticeCell{block.octave, block.x * 4 + (bit & 3),
+                          block.y * 4 + (bit >> 2 & 3), block.z * 4 + (bit >> 4)});
+    }
+}
+
+}  // namespace
+
+void Coverage::mark(const LatticeCell& block, Word cells) {
+    if (cells == 0) return;
+    const auto [word, isNew] = blocks_.tryEmplace(block, 0);
+    *word |= cells;
+    if (!isNew) return;
+    const auto place = std::lower_bound(octaves_.begin(), octaves_.end(), block.octave);
+    if (place == octaves_.end() || *place != block.octave)
+        octaves_.insert(place, block.octave);
+}
+
+void Coverage::mark(const LatticeCell& cell) {
+    mark(blockOf(cell), bitOf(cell.x, cell.y, cell.z));
+}
+
+void Coverage::markSegment(int octave, const Eigen::Vector3d& from,
+                           const Eigen::Vector3d& to) {
+    LatticeCell block{octave, 0, 0, 0};
+    Word passed = 0;
+    const auto finish = [&] {
+        if ((passed & ~word(block)) != 0) mark(block, passed);
+    };
+    walkCells(from, to, powerOfTwo(-octave), [&](const std::int32_t* c, double, double) {
+        const LatticeCell own = blockOf({octave, c[0], c[1], c[2]});
+        if (!(own == block)) {
+            if (passed != 0) finish();
+            block = own;
+            passed = 0;
+        }
+        passed |= bitOf(c[0], c[1], c[2]);
+    });
+    finish();
+}
+
+Coverage::Rays::Rays(const CoverageParams& params, double raySpacing_rad,
+                     const Eigen::Vector3d& normalOfRays)
+    : normal_(normalOfRays),
+      atOneMetre_m_(params.coverageCellAtOneMetre_m),
+      perMetre_(kCellsPerSpacing * raySpacing_rad) {}
+
+int Coverage::Rays::octaveAt(double w_m) const {
+    const double edge = std::max(atOneMetre_m_ * std::sqrt(std::max(w_m, kNearest_m)),
+                                 std::min(kWidestGap_m, perMetre_ * w_m));
+    return static_cast<int>(std::floor(std::log2(edge) + 0.5));
+}
+
+double Coverage::Rays::endOf(int octave) const {
+    const double edge = std::exp2(octave + 0.5), root = edge / atOneMetre_m_;
+    const double end = root * root;
+    return edge < kWidestGap_m ? std::min(end, edge / perMetre_) : end;
+}
+
+void Coverage::markRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& end,
+                       bool isHit, const Rays& rays) {
+    const Eigen::Vector3d ray = end - origin;
+    const double range = ray.norm();
+    if (!(range > 0)) return;
+    const double stop = isHit ? range - powerOfTwo(rays.octaveAt(range)) / 2 : range;
+    double from = 0.0;
+    for (int octave = rays.octaveAt(0.0); from < stop; ++octave) {
+        const double to = std::min(stop, rays.endOf(octave));
+        // Lattices overlap by a cell: where one ends, the other is whole.
+        const double start = std::max(0.0, from - powerOfTwo(octave));
+        const Eigen::Vector3d a = origin + (start / range) * ray,
+                              b = origin + (to / range) * ray;
+        // A planar laser marks a layer of cells, or two if it lies near their border.
+        const Eigen::Vector3d aside = powerOfTwo(octave) / 4 * rays.normal();
+        markSegment(octave, a + aside, b + aside);
+        if (!rays.normal().isZero()) markSegment(octave, a - aside, b - aside);
+        from = to;
+    }
+}
+
+bool Coverage::isMarked(const LatticeCell& cell) const {
+    return (word(blockOf(cell)) & bitOf(cell.x, cell.y, cell.z)) != 0;
+}
+
+unsigned Coverage::corners(const LatticeCell& low) const {
+    LatticeCell block = blockOf(low);
+    Word cells = word(block);
+    unsigned found = 0;
+    for (int k = 0; k < 8; ++k) {
+        const LatticeCell cell{low.octave, low.x + (k & 1), low.y + (k >> 1 & 1),
+                               low.z + (k >> 2)};
+        if (const LatticeCell own = blockOf(cell); !(own == block)) {
+            block = own;
+            cells = word(block);
+        }
+        if ((cells & bitOf(cell.x, cell.y, cell.z)) != 0) found |= 1U << k;
+    }
+    return found;
+}
+
+template <typename T>
+T Coverage::at(const T* x) const {
+    T best = 0.0;
+    for (const int octave : octaves_) {
+        const double edge = powerOfTwo(octave);
+        const Eigen::Vector3d p(valueOf(x[0]), valueOf(x[1]), valueOf(x[2]));
+        const LatticeCell low = LatticeCell::at(p.array() - edge / 2, octave);
+        const unsigned marked = corners(low);
+        if (marked == 0) continue;
+        if (marked == kAllCorners) return 1.0;
+        const Eigen::Vector3d centre = centreOf(low);
+        T share = 0.0, upper[3];
+        for (int d = 0; d < 3; ++d) upper[d] = (x[d] - centre[d]) / edge;
+        for (int k = 0; k < 8; ++k) {
+            if ((marked >> k & 1U) == 0) continue;
+            T weight = 1.0;
+            for (int d = 0; d < 3; ++d)
+                weight = weight * ((k >> d & 1) != 0 ? upper[d] : 1.0 - upper[d]);
+            share += weight;
+        }
+        // Around a ray of its own, without its neighbours, it ends sooner.
+        share = share * share;
+        if (valueOf(share) > valueOf(best)) best = share;
+    }
+    return best;
+}
+template double Coverage::at(const double*) const;
+template Dual Coverage::at(const Dual*) const;
+
+void Coverage::merge(const Coverage& other, const Pose& T_local_other) {
+    const Pose T_other_local = T_local_other.inverse();
+    other.forEachBlock([&](const LatticeCell& block, Word word) {
+        forEachCell(block, word, [&](const LatticeCell& cell) {
+            const Eigen::Vector3d centre =
+                T_local_other.R * centreOf(cell) + T_local_other.t;
+            const LatticeCell near = LatticeCell::at(centre, cell.octave);
+            for (int k = 0; k < 27; ++k) {
+                const LatticeCell mine{cell.octave, near.x + k % 3 - 1,
+                                       near.y + k / 3 % 3 - 1, near.z + k / 9 - 1};
+                const Eigen::Vector3d theirs =
+                    T_other_local.R * centreOf(mine) + T_other_local.t;
+                if (LatticeCell::at(theirs, cell.octave) == cell) mark(mine);
+            }
+        });
+    });
+}
+
+Coverage Coverage::coarsened(int times) const {
+    if (times == 0) return *this;
+    LatticeTable<std::uint8_t> children;
+    forEachBlock([&](const LatticeCell& block, Word word) {
+        forEachCell(block, word, [&](const LatticeCell& cell) {
+            ++*children.tryEmplace(cell.parent(), 0).first;
+        });
+    });
+    Coverage coarse;
+    children.forEach([&](const LatticeCell& cell, std::uint8_t marked) {
+        if (marked >= 4) coarse.mark(cell);
+    });
+    return coarse.coarsened(times - 1);
+}
+
+Coverage::Word Coverage::withoutCovered(const LatticeCell& block, Word word) const {
+    Word kept = 0;
+    forEachCell(block, word, [&](const LatticeCell& cell) {
+        const Eigen::Vector3d p = centreOf(cell);
+        for (auto octave = octaves_.rbegin(); octave != octaves_.rend(); ++octave) {
+            if (*octave <= cell.octave) break;
+            const Eigen::Vector3d corner = p.array() - powerOfTwo(*octave) / 2;
+            if (corners(LatticeCell::at(corner, *octave)) == kAllCorners) return;
+        }
+        kept |= bitOf(cell.x, cell.y, cell.z);
+    });
+    return kept;
+}
+
+Coverage Coverage::pruned() const {
+    Coverage kept;
+    forEachBlock([&](const LatticeCell& block, Word word) {
+        kept.mark(block, withoutCovered(block, word));
+    });
+    return kept;
+}
+
+bool Coverage::operator==(const Coverage& o) const {
+    bool same = blockCount() == o.blockCount();
+    forEachBlock([&](const LatticeCell& block, Word cells) {
+        same = same && o.word(block) == cells;
+    });
+    return same;
+}
+
+void markRays(const Mixture<3>& samples, const ScanSamples& scan,
+              const Pose& T_local_sensor, const CoverageParams& params,
+              Coverage& coverage) {
+    const Coverage::Rays rays(params, scan.raySpacing_rad,
+                              T_local_sensor.R * scan.normalOfRays_sensor);
+    const Eigen::Vector3d& origin = T_local_sensor.t;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        coverage.markRay(origin, samples[i].mean, true, rays);
+    for (const ClearedRay& ray : scan.clearedRays_sensor)
+        coverage.markRay(origin,
+                         origin + T_local_sensor.R *
+                                      (double(ray.length_m) * ray.direction.cast<double>()),
+                         false, rays);
+}
+
+}  // namespace hgmm

@@ -1,0 +1,104 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/lattice_table.h"
+#include "hgmm/params.h"
+#include "hgmm/scan.h"
+
+namespace hgmm {
+
+/// Where rays passed: one bit for each cell of lattices whose edges grow with the distance
+/// to the sensor, as the spacing of its rays does. Mixtures say how likely a point is
+/// occupied or free; their tails cannot say whether any ray was there.
+///
+/// Cells are kept in blocks of 4 x 4 x 4, one word each.
+class Coverage {
+ public:
+    /// The cells of one block; bit x + 4 y + 16 z is the cell (x, y, z) in it.
+    using Word = std::uint64_t;
+    static constexpr int kBlockShift = 2;
+
+    /// What the rays of one scan have in common.
+    class Rays {
+     public:
+        /// @param raySpacing_rad angle between neighbouring rays
+        /// @param normalOfRays unit normal of the plane of all rays, in the local frame;
+        /// zero where there is none
+        Rays(const CoverageParams& params, double raySpacing_rad,
+             const Eigen::Vector3d& normalOfRays);
+        const Eigen::Vector3d& normal() const { return normal_; }
+        /// Octave of the cells at a distance w from the sensor [m].
+        int octaveAt(double w_m) const;
+        /// Distance at which the cells of an octave end [m].
+        double endOf(int octave) const;
+
+     private:
+        Eigen::Vector3d normal_;
+        double atOneMetre_m_, perMetre_;
+    };
+
+    /// Marks the cells that a ray passes, in the local frame. The last half cell before
+    /// `end` is left out if it `isHit`.
+    void markRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& end, bool isHit,
+                 const Rays& rays);
+
+    /// C(x) in [0, 1]: the trilinear share of marked cells, squared, largest over the
+    /// lattices.
+    /// Continuous; 0 where no ray was near. T is double or Dual.
+    template <typename T>
+    T at(const T* x) const;
+
+    /// Adds the cells of another map, whose frame has pose T_local_other here. A cell is
+    /// marked if its centre lies in a marked one of the other.
+    void merge(const Coverage& other, const Pose& T_local_other);
+
+    /// Without the cells in which a coarser lattice says C = 1: they say nothing new.
+    Coverage pruned() const;
+    /// On lattices of twice the edge, `times` times over. A cell of which at least half is
+    /// marked stays marked.
+    Coverage coarsened(int times) const;
+
+    /// Octaves of the lattices that hold cells, rising: their edges are 2^octave m.
+    const std::vector<int>& octaves() const { return octaves_; }
+    /// Calls visit(block, word) for each block that holds cells, in no order. A block's
+    /// coordinates are those of its cells / 4, its octave is theirs.
+    template <typename Visitor>
+    void forEachBlock(Visitor&& visit) const {
+        blocks_.forEach(visit);
+    }
+    /// The cells of a block; none where there is no such block.
+    Word word(const LatticeCell& block) const {
+        const Word* const found = blocks_.find(block);
+        return found != nullptr ? *found : 0;
+    }
+    /// Marks cells of a block.
+    void mark(const LatticeCell& block, Word cells);
+    void mark(const LatticeCell& cell);
+
+    std::size_t blockCount() const { return blocks_.size(); }
+    std::size_t liveBytes() const { return blocks_.liveBytes(); }
+    bool operator==(const Coverage& o) const;
+    bool empty() const { return octaves_.empty(); }
+
+ private:
+    bool isMarked(const LatticeCell& cell) const;
+    /// Which of the eight cells whose lowest is `low` are marked: bit dx + 2 dy + 4 dz.
+    unsigned corners(const LatticeCell& low) const;
+    /// The cells of a word of a block in which no coarser lattice says C = 1.
+    Word withoutCovered(const LatticeCell& block, Word word) const;
+    void markSegment(int octave, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
+    LatticeTable<Word> blocks_;
+    std::vector<int> octaves_;
+};
+
+/// Marks the cells that the rays of a scan pass, those that end on samples and those that
+/// clear.
+/// @param samples of the scan, in the local frame
+void markRays(const Mixture<3>& samples, const ScanSamples& scan,
+              const Pose& T_local_sensor, const CoverageParams& params, Coverage& coverage);
+
+}  // namespace hgmm
