@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -16,7 +17,7 @@ namespace hgmm {
 template <typename Visit>
 void walkCells(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double perCell,
                Visit&& visit) {
-    constexpr double kLimit = 1e9, kNever = std::numeric_limits<double>::infinity();
+    constexpr double kLimit = 1e9, kUnreached = std::numeric_limits<double>::infinity();
     const Eigen::Vector3d a = from * perCell, b = to * perCell;
     if (!(a.cwiseAbs().sum() + b.cwiseAbs().sum() < kLimit)) return;
     std::int32_t cell[3], step[3];
@@ -29,7 +30,7 @@ void walkCells(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double pe
         left[d] = std::abs(way);
         steps += left[d];
         delta[d] = std::abs(1.0 / (b[d] - a[d]));
-        next[d] = left[d] == 0 ? kNever
+        next[d] = left[d] == 0 ? kUnreached
                                : delta[d] * (way < 0 ? a[d] - cell[d] : cell[d] + 1 - a[d]);
     }
     double t = 0.0;
@@ -40,7 +41,7 @@ void walkCells(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double pe
         visit(cell, t, out);
         t = out;
         cell[axis] += step[axis];
-        next[axis] = --left[axis] == 0 ? kNever : next[axis] + delta[axis];
+        next[axis] = --left[axis] == 0 ? kUnreached : next[axis] + delta[axis];
     }
     visit(cell, t, 1.0);
 }
