@@ -50,7 +50,9 @@ void info(const std::string& mapFile) {
     std::printf("serialised  %zu bytes, %zu bytes in memory\n",
                 memory.serialized_bytes.value(), memory.live_bytes);
     if (map.empty()) {
-        std::printf("the map is empty\n");
+        std::printf(map.coverageBytes() == 0
+                        ? "the map is empty\n"
+                        : "no surfaces, only space that rays passed\n");
     } else {
         std::printf("origin      %.0f %.0f %.0f m\n", map.origin().x() + 0.0,
                     map.origin().y() + 0.0,

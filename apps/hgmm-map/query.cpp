@@ -37,8 +37,9 @@ void print(const Eigen::Vector3d& p, const hgmm::Occupancy& answer) {
     const char* word = verdict(answer);
     std::printf("%.9g %.9g %.9g %s %.4f %.4f %.4f", p.x(), p.y(), p.z(), word,
                 answer.occupied, answer.free, answer.unknown);
-    // A distance to a surface that nobody has seen would mean nothing.
-    if (answer.unknown >= 1.F)
+    // A distance to a surface that nobody has seen would mean nothing; the variance is 0
+    // where no component gives one.
+    if (answer.unknown >= 1.F || answer.variance_m2 <= 0.F)
         std::printf(" - -");
     else
         std::printf(" %.4f %.4f", answer.distance_m, std::sqrt(answer.variance_m2));

@@ -88,7 +88,8 @@ class HGMM_EXPORT Map {
     void merge(const Map& other, const Pose& T_this_other = {});
 
     /// Removes the surface components of the base level whose means lie in a box, its faces
-    /// included: for what a user knows to be gone. Free space and modalities stay.
+    /// included: for what a user knows to be gone. Free space, coverage and modalities
+    /// stay.
     /// @param box_map in the map frame [m]
     /// @return how many were removed
     /// Throws std::invalid_argument for a box that is empty (a corner `min` above `max`) or

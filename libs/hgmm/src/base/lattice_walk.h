@@ -12,7 +12,7 @@ namespace hgmm {
 /// Calls visit(cell, tIn, tOut) for each cell of a lattice that a segment passes, from one
 /// end to the other (Amanatides and Woo 1987). `cell` points to three coordinates; the
 /// segment is in the cell between the shares tIn and tOut of its length. Nothing is visited
-/// if an end is not finite, or more than 10^9 cells from the origin.
+/// if an end is not finite, or the coordinates of both sum up to more than 10^9 cells.
 /// @param perCell cells per metre
 template <typename Visit>
 void walkCells(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double perCell,

@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
@@ -12,10 +11,7 @@ namespace hgmm {
 class BitModel {
  public:
     /// P(1) in units of 2^-16, in [1, 65535].
-    std::uint32_t probability() const {
-        const std::uint32_t mean = (std::uint32_t{quick_} + slow_) / 2;
-        return mean == 0 ? 1 : mean;
-    }
+    std::uint32_t probability() const { return (std::uint32_t{quick_} + slow_) / 2; }
     void learn(bool bit) {
         move(quick_, 4, bit);
         move(slow_, 7, bit);

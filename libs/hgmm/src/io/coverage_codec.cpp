@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <tuple>
 
 #include "base/byte_stream.h"
@@ -95,13 +96,13 @@ using Models = std::vector<BitModel>;
 /// Codes the cells of a block one by one: code(bit, model) returns the bit.
 template <typename Code>
 Word codeBlock(const Blocks& blocks, const LatticeCell& block, Word cells,
-               const Halves* halves, Models& models, Code&& code) {
+               const std::optional<Halves>& halves, Models& models, Code&& code) {
     Surroundings around(blocks, block);
     Word coded = 0;
     for (int bit = 0; bit < 64; ++bit) {
         const int x = bit & 3, y = bit >> 2 & 3, z = bit >> 4;
         std::size_t context = around.context(x, y, z);
-        if (halves != nullptr) context = 3 * context + halves->of(x, y, z);
+        if (halves) context = 3 * context + halves->of(x, y, z);
         const bool is = code((cells >> bit & 1U) != 0, models[context]);
         around.at(x, y, z) = is ? 1 : 0;
         coded |= Word{is} << bit;
@@ -110,13 +111,15 @@ Word codeBlock(const Blocks& blocks, const LatticeCell& block, Word cells,
 }
 
 /// So that neighbours before a cell lie in blocks before its own.
+bool comesBefore(const LatticeCell& a, const LatticeCell& b) {
+    return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x);
+}
+
 std::vector<LatticeCell> inOrder(const Blocks& blocks) {
     std::vector<LatticeCell> order;
     order.reserve(blocks.size());
     blocks.forEach([&](const LatticeCell& block, Word) { order.push_back(block); });
-    std::sort(order.begin(), order.end(), [](const LatticeCell& a, const LatticeCell& b) {
-        return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x);
-    });
+    std::sort(order.begin(), order.end(), comesBefore);
     return order;
 }
 
@@ -143,9 +146,7 @@ std::vector<LatticeCell> children(const Blocks& upper, std::uint64_t most) {
                 throw FormatError("saved map: coverage has more blocks than it says");
         }
     }
-    std::sort(found.begin(), found.end(), [](const LatticeCell& a, const LatticeCell& b) {
-        return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x);
-    });
+    std::sort(found.begin(), found.end(), comesBefore);
     return found;
 }
 
@@ -153,6 +154,13 @@ using Corner = std::array<std::int32_t, 3>;
 
 LatticeCell moved(const LatticeCell& block, const Corner& corner) {
     return {block.octave, block.x + corner[0], block.y + corner[1], block.z + corner[2]};
+}
+
+/// Only cells have a finer lattice: the levels above them say where blocks are.
+std::optional<Halves> halvesAt(std::size_t level, const Coverage& coverage,
+                               const LatticeCell& block) {
+    if (level > 0) return std::nullopt;
+    return Halves(coverage, block);
 }
 
 /// One octave's blocks, from the corner of all of them on.
@@ -209,9 +217,8 @@ void encodeCoverage(const Coverage& coverage, std::vector<std::uint8_t>& out) {
         for (std::size_t l = levels.size(); l-- > 0;) {
             Models models(kContexts);
             for (const LatticeCell& block : inOrder(levels[l])) {
-                const Halves halves(coverage, moved(block, corners[p]));
-                codeBlock(levels[l], block, *levels[l].find(block),
-                          l == 0 ? &halves : nullptr, models,
+                const auto halves = halvesAt(l, coverage, moved(block, corners[p]));
+                codeBlock(levels[l], block, *levels[l].find(block), halves, models,
                           [&](bool bit, BitModel& model) {
                               encoder.put(bit, model);
                               return bit;
@@ -251,9 +258,9 @@ std::size_t decodeCoverage(const std::uint8_t* data, std::size_t size, Coverage&
             blocks = Blocks();
             Models models(kContexts);
             for (const LatticeCell& block : order) {
-                const Halves halves(coverage, moved(block, head.corner));
+                const auto halves = halvesAt(l, coverage, moved(block, head.corner));
                 const Word cells =
-                    codeBlock(blocks, block, 0, l == 0 ? &halves : nullptr, models,
+                    codeBlock(blocks, block, 0, halves, models,
                               [&](bool, BitModel& model) { return decoder.get(model); });
                 *blocks.tryEmplace(block, 0).first = cells;
             }

@@ -10,7 +10,7 @@ namespace hgmm {
 /// Coverage as it is saved, without loss: for each octave a pyramid of bits, from the block
 /// that holds everything, whose bits say which parts of it hold anything, down to the
 /// cells. Each bit is coded by what it is beside (BitModel): ten neighbours that come
-/// before it.
+/// before it, and, for a cell, how much of it is marked in the lattice of half its edge.
 void encodeCoverage(const Coverage& coverage, std::vector<std::uint8_t>& out);
 
 /// Returns the bytes read. Throws std::out_of_range if the data ends too early, FormatError

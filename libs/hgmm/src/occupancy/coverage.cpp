@@ -118,10 +118,6 @@ void Coverage::markRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& end
     }
 }
 
-bool Coverage::isMarked(const LatticeCell& cell) const {
-    return (word(blockOf(cell)) & bitOf(cell.x, cell.y, cell.z)) != 0;
-}
-
 unsigned Coverage::corners(const LatticeCell& low) const {
     LatticeCell block = blockOf(low);
     Word cells = word(block);

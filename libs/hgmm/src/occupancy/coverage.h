@@ -84,7 +84,6 @@ class Coverage {
     bool empty() const { return octaves_.empty(); }
 
  private:
-    bool isMarked(const LatticeCell& cell) const;
     /// Which of the eight cells whose lowest is `low` are marked: bit dx + 2 dy + 4 dz.
     unsigned corners(const LatticeCell& low) const;
     /// The cells of a word of a block in which no coarser lattice says C = 1.
