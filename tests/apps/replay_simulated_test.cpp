@@ -51,6 +51,18 @@ TEST_F(ReplaySimulated, AppearsAtOnceInVoxelsThatWereHardlyEverSeen) {
     EXPECT_LE(voxels["scans_to_99pct"], 3);
 }
 
+TEST_F(ReplaySimulated, ParkedRobotsMapDoesNotGrowAndHasANewWall) {
+    const auto json = study("parked --only dust --sensors 2d --after 2000 --threads 1");
+    ASSERT_EQ(json["parked"].size(), 2U) << "noise of 1 and 2 cm";
+    for (const auto& row : json["parked"]) {
+        EXPECT_GE(row["components_surface_10"], 20) << "a room of 44 m around";
+        EXPECT_GT(row["kilobytes_10"], 1.0);
+        EXPECT_FALSE(row.contains("components_surface_4000"));
+        EXPECT_LE(row["growth"], 1.2);
+        EXPECT_LE(row["wall_scans_to_99pct"], 5);
+    }
+}
+
 // Voxels of 5 cm reach past the margin of 4 cm, so that some are seen at a face.
 TEST_F(ReplaySimulated, SolidsAreUnknownToVoxels) {
     const auto json =

@@ -1,59 +1,14 @@
 #include "studies/dynamics_protocols.h"
 
-#include <cmath>
-#include <limits>
-
-#include "format.h"
 #include "hgmm/evaluation/timing.h"
 #include "interrupt.h"
+#include "studies/notice.h"
 
 namespace replay {
 namespace {
 
 using namespace hgmm::evaluation;
 using namespace hgmm::evaluation::changing_room;
-
-constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kNotTaken = std::numeric_limits<double>::quiet_NaN();
-constexpr int kPatience = 100;  ///< scans that a change may take to be noticed
-
-using Say = bool (*)(const hgmm::Occupancy&);
-
-/// How soon the maps of a world say of points what is so.
-class Notice {
- public:
-    Notice(const World& world, Points points_map, Say isRight)
-        : world_(world), points_map_(std::move(points_map)), isRight_(isRight) {
-        shares_.resize(world.maps().size());
-    }
-
-    /// After each scan since the change.
-    void look() {
-        for (std::size_t m = 0; m < shares_.size(); ++m)
-            shares_[m].push_back(
-                shareOf(world_.maps()[m]->occupancy(points_map_), isRight_));
-    }
-    /// Scans until at least this share was right.
-    double scansUntil(double share, std::size_t map) const {
-        for (std::size_t i = 0; i < shares_[map].size(); ++i)
-            if (shares_[map][i] >= share) return static_cast<double>(i + 1);
-        return points_map_.empty() ? kNotTaken : kNever;
-    }
-    bool allNoticed(double share) const {
-        for (std::size_t m = 0; m < shares_.size(); ++m)
-            if (!std::isfinite(scansUntil(share, m))) return points_map_.empty();
-        return true;
-    }
-    double first(std::size_t map) const { return shares_[map].front(); }
-    double last(std::size_t map) const { return shares_[map].back(); }
-    double points() const { return static_cast<double>(points_map_.size()); }
-
- private:
-    const World& world_;
-    Points points_map_;
-    Say isRight_;
-    std::vector<std::vector<double>> shares_;  ///< of each map after each scan
-};
 
 /// Shares of what stays, before and after a change.
 class Staying {
@@ -77,10 +32,6 @@ class Staying {
     std::vector<std::vector<double>> before_;  ///< of each map
 };
 
-void showFor(World& world, const Scene& scene, int scans) {
-    for (int i = 0; i < scans && !interrupted(); ++i) world.show(scene);
-}
-
 double medianTime(const MapUnderTest& map) {
     return median(map.insert_ms());
 }
@@ -91,7 +42,7 @@ void changeProtocol(const DynamicsRun& run, int scans, bool appears) {
     const Scene without = room(Background::closed);
     Scene with = without;
     addBox(with);
-    showFor(world, appears ? without : with, scans);
+    world.show(appears ? without : with, scans);
     Staying staying(world, with);
     Notice notice(world,
                   world.movingPoints(with, appears ? world.nextPose() : world.lastPose()),
@@ -142,7 +93,7 @@ void personProtocol(const DynamicsRun& run, int scans, Background background) {
     constexpr int kScans = 300, kSoon = 1, kLater = 20;
     World world(observerOf(run.sensor), run.makeMaps, run.seed);
     const Scene empty = room(background);
-    showFor(world, empty, scans);
+    world.show(empty, scans);
     Staying staying(world, empty);
     Walk walk(world);
     for (int i = 0; i < kScans && !interrupted(); ++i) {
@@ -152,9 +103,9 @@ void personProtocol(const DynamicsRun& run, int scans, Background background) {
         walk.look(world, world.movingPoints(scene, world.lastPose()));
     }
     Notice trail(world, walk.trail_map, saysOccupied);
-    showFor(world, empty, kSoon);
+    world.show(empty, kSoon);
     trail.look();
-    showFor(world, empty, kLater - kSoon);
+    world.show(empty, kLater - kSoon);
     trail.look();
     if (interrupted()) return;
     const std::string behind = background == Background::open ? "open" : "closed";
@@ -172,7 +123,7 @@ void doorProtocol(const DynamicsRun& run, double recess_m) {
     const Scene open = room(Background::closed);
     Scene shut = open;
     addDoor(shut, recess_m);
-    showFor(world, shut, kShutFirst);
+    world.show(shut, kShutFirst);
     Staying staying(world, shut);
     const std::string name = recess_m > 0.0 ? "recessed" : "flush";
     for (int swing = 0; swing < kSwings && !interrupted(); ++swing) {
@@ -192,50 +143,6 @@ void doorProtocol(const DynamicsRun& run, double recess_m) {
         }
     }
     staying.report("door " + name, run, world);
-}
-
-void parkedProtocol(const DynamicsRun& run, double noise_m, double dustShare, int scans) {
-    constexpr int kWithWall = 1000;  // scans at the end
-    const int marks[] = {10, 100, 1000};
-    Observer observer = observerOf(run.sensor);
-    observer.parked = true;
-    observer.errors.noise_m = noise_m;
-    observer.errors.dustShare = dustShare;
-    World world(observer, run.makeMaps, run.seed);
-    const Scene before = room(Background::closed);
-    Scene after = before;
-    addPartition(after);
-    std::vector<std::vector<ComponentCount>> counts(world.maps().size());
-    const auto count = [&] {
-        for (std::size_t m = 0; m < counts.size(); ++m)
-            counts[m].push_back(world.maps()[m]->components());
-    };
-    for (const int mark : marks) {
-        showFor(world, before, mark - world.scans());
-        count();
-    }
-    showFor(world, before, scans - kWithWall - world.scans());
-    Notice wall(world, world.movingPoints(after, world.nextPose()), saysOccupied);
-    for (int i = 0; i < kWithWall && !interrupted(); ++i) {
-        world.show(after);
-        if (i < kPatience) wall.look();
-    }
-    count();
-    if (interrupted()) return;
-    for (std::size_t m = 0; m < counts.size(); ++m) {
-        const auto all = [](const ComponentCount& c) { return double(c.surface + c.free); };
-        std::vector<double> figures;
-        for (const ComponentCount& c : counts[m]) figures.push_back(double(c.surface));
-        for (const ComponentCount& c : counts[m]) figures.push_back(double(c.free));
-        const double at1000 = all(counts[m][2]);
-        figures.push_back(at1000 > 0.0 ? all(counts[m][3]) / at1000 : kNotTaken);
-        figures.push_back(wall.scansUntil(0.5, m));
-        figures.push_back(wall.scansUntil(0.99, m));
-        figures.push_back(medianTime(*world.maps()[m]));
-        run.tables.parked.add({run.sensor, format("%g", 100.0 * noise_m),
-                               format("%g", 100.0 * dustShare), world.maps()[m]->name()},
-                              figures);
-    }
 }
 
 }  // namespace replay

@@ -12,7 +12,7 @@ namespace replay {
 struct DynamicsTables {
     DynamicsTables();
 
-    FigureTable removed, appears, person, door, stays, parked;
+    FigureTable removed, appears, person, door, stays;
 };
 
 /// One sensor and seed of the study.
@@ -36,9 +36,5 @@ void personProtocol(const DynamicsRun& run, int scans,
 /// A door opens and shuts 4 times each, shut for 50 scans at first.
 /// @param recess_m its distance behind the face of the wall [m]
 void doorProtocol(const DynamicsRun& run, double recess_m);
-
-/// A robot that stays where it is for `scans` scans; a partition appears 1000 scans before
-/// their end. Of other maps only the partition is asked.
-void parkedProtocol(const DynamicsRun& run, double noise_m, double dustShare, int scans);
 
 }  // namespace replay

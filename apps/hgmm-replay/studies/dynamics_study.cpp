@@ -16,7 +16,7 @@ using changing_room::Background;
 
 using Names = std::vector<std::string>;
 
-const Names kProtocols{"removed", "appears", "person", "door", "parked"};
+const Names kProtocols{"removed", "appears", "person", "door"};
 const Names kSensors{"2d", "16", "32", "camera"};
 
 /// All that is to be run, as jobs, so that progress can be told.
@@ -41,17 +41,11 @@ void addJobs(const std::string& protocol, const DynamicsRun& run,
     if (protocol == "door" && !flat)
         for (const double recess_m : {0.0, 0.11})
             jobs.push_back([=] { doorProtocol(run, recess_m); });
-    if (protocol == "parked" && (flat || run.sensor == "16"))
-        for (const double noise_m : {0.01, 0.02})
-            for (const double dust : {0.0, 0.005})
-                for (const int n : scansOr({16000}))
-                    jobs.push_back(
-                        [=] { parkedProtocol(run, noise_m, dust, std::max(n, 2000)); });
 }
 
 /// All tables in the order of kProtocols, then what stays.
 std::vector<const FigureTable*> allOf(const DynamicsTables& t) {
-    return {&t.removed, &t.appears, &t.person, &t.door, &t.parked, &t.stays};
+    return {&t.removed, &t.appears, &t.person, &t.door, &t.stays};
 }
 
 void print(const FigureTable& table) {

@@ -21,20 +21,6 @@ std::vector<FigureColumn> columnsOfStays() {
     return columns;
 }
 
-std::vector<FigureColumn> columnsOfParked() {
-    std::vector<FigureColumn> columns;
-    for (const char* kind : {"surface", "free"})
-        for (const char* scans : {"10", "100", "1000", "end"})
-            columns.push_back({std::string(kind) + " " + scans,
-                               "components_" + std::string(kind) + "_" + scans, 0,
-                               Worst::largest});
-    columns.push_back({"end/1000", "growth", 2, Worst::largest, "<=1.2"});
-    columns.push_back({"wall half", "wall_scans_to_half", 0, Worst::largest});
-    columns.push_back({"99 %", "wall_scans_to_99pct", 0, Worst::largest, "<=5"});
-    columns.push_back(kTime);
-    return columns;
-}
-
 }  // namespace
 
 DynamicsTables::DynamicsTables()
@@ -67,8 +53,6 @@ DynamicsTables::DynamicsTables()
             {"free at ends of open swings", "open_free_share", 3, Worst::smallest},
             kTime}),
       stays("stays", "What stays: share occupied, before and after the change",
-            {"protocol", "sensor", "map"}, columnsOfStays()),
-      parked("parked", "Parked: components, and scans until a new wall is occupied",
-             {"sensor", "noise [cm]", "dust [%]", "map"}, columnsOfParked()) {}
+            {"protocol", "sensor", "map"}, columnsOfStays()) {}
 
 }  // namespace replay

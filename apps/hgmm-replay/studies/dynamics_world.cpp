@@ -8,6 +8,7 @@
 #include "hgmm/evaluation/planar_observation.h"
 #include "hgmm/evaluation/split.h"
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
+#include "interrupt.h"
 
 namespace replay {
 
@@ -83,6 +84,10 @@ void World::show(const Scene& scene) {
                       clears ? WithoutReturn::clears : WithoutReturn::leftOut);
     }
     for (const auto& map : maps_) map->insert(scan);
+}
+
+void World::show(const Scene& scene, int scans) {
+    for (int i = 0; i < scans && !interrupted(); ++i) show(scene);
 }
 
 std::vector<std::size_t> World::indices(std::size_t total, std::size_t n) const {

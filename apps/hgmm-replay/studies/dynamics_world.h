@@ -35,6 +35,9 @@ class World {
     /// Takes the next scan, of a scene as it is now, for all maps.
     void show(const hgmm::evaluation::Scene& scene);
 
+    /// The next scans, until Ctrl-C.
+    void show(const hgmm::evaluation::Scene& scene, int scans);
+
     /// Where the last scan was taken, and where the next will be.
     hgmm::Pose lastPose() const { return poseOf(scans_ - 1); }
     hgmm::Pose nextPose() const { return poseOf(scans_); }

@@ -11,6 +11,7 @@
 #include "studies/incremental_study.h"
 #include "studies/landscape_study.h"
 #include "studies/modality_study.h"
+#include "studies/parked_study.h"
 #include "studies/registration_study.h"
 #include "studies/regression_study.h"
 #include "studies/room_study.h"
@@ -106,6 +107,12 @@ std::vector<Study> makeStudies() {
          Needs::nothing,
          {},
          dynamicsStudy},
+        {"parked",
+         "whether the map of a robot that stays where it is grows, and a new wall is seen "
+         "in it; takes no LOG",
+         Needs::nothing,
+         {},
+         parkedStudy},
         {"unseen",
          "what is said of the insides of solids, of space behind walls, and where rays did "
          "not "

@@ -20,6 +20,7 @@ class Ours : public MapUnderTest {
     ComponentCount components() const override {
         return {map_.mixture().size(), map_.freeMixture().size()};
     }
+    std::size_t savedBytes() const override { return map_.save().size(); }
 
  private:
     void insertScan(const Scan& scan) override { map_.insert(scan); }

@@ -26,9 +26,10 @@ struct InsertReport {
     std::size_t novelSamples = 0;         ///< not explained by the map before this scan
     std::size_t componentsUpdated = 0;    ///< that absorbed known samples
     std::size_t componentsAdded = 0;      ///< for novel samples
+    std::size_t componentsMissed = 0;     ///< of few hits, that a ray was for and missed
     std::size_t componentsCarved = 0;     ///< that the scan saw through
     std::size_t componentsOversized = 0;  ///< too thick for what the scan saw there
-    std::size_t componentsRemoved = 0;    ///< of both, for want of support
+    std::size_t componentsRemoved = 0;    ///< of these three, for want of support
 };
 
 /// How Map::save writes components.
@@ -65,9 +66,10 @@ class HGMM_EXPORT Map {
 
     /// Filter -> novelty split -> { known: update | novel: EM, hierarchy, append |
     /// oversized: lose support }, then free space and coverage, then carving of surfaces
-    /// that rays passed through; modalities, which are models of their own, at the same
-    /// time. Throws std::invalid_argument for a malformed scan (Scan::validate), leaving
-    /// the map as it was; a scan without usable points changes nothing.
+    /// that rays passed through and decay of those that they missed; modalities, which are
+    /// models of their own, at the same time. Throws std::invalid_argument for a malformed
+    /// scan (Scan::validate), leaving the map as it was; a scan without usable points
+    /// changes nothing.
     InsertReport insert(const Scan& scan);
     /// The same for a scan whose samples are at hand, samplesOf(scan, params()): many maps
     /// can share them. Modalities learn nothing. Throws std::invalid_argument for a pose

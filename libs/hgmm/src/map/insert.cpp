@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "base/require_rigid.h"
 #include "base/run_both.h"
 #include "fusion/carving.h"
+#include "fusion/missed.h"
 #include "fusion/novelty.h"
 #include "fusion/oversized.h"
 #include "fusion/update.h"
@@ -20,6 +22,10 @@ namespace {
 /// Hits of a surface beyond this many do not count against rays that pass through it, so
 /// that what stood long goes as soon as what stood briefly.
 constexpr float kTrustedHits = 40.F;
+
+/// A component that is missed (fusion/missed.h) so often loses what it would lose if it
+/// were seen through once [scans].
+constexpr double kMissesPerCarving = 60.0;
 
 /// Local frames start on a lattice of whole metres, so that poses relative to it are exact.
 Eigen::Vector3d latticePoint(const Eigen::Vector3d& p) {
@@ -105,6 +111,20 @@ std::size_t removeWeak(ComponentStore& store, std::vector<std::uint32_t> weakene
     return removed;
 }
 
+/// Takes support from components of few hits that the scan missed.
+std::size_t decayMissed(ComponentStore& store, const QueryCache& cache,
+                        const std::vector<std::uint32_t>& hit, const ScanRays& rays,
+                        const CarvingParams& params, std::vector<std::uint32_t>& weakened) {
+    if (params.carvedSupport == 1.0) return 0;
+    const double kept = std::pow(params.carvedSupport, 1.0 / kMissesPerCarving);
+    const std::vector<std::uint32_t> rows =
+        missed(store.surfaces(), hit, kTrustedHits, rays, cache.index(), cache.grid());
+    for (const std::uint32_t i : rows)
+        store.setSupport(i, static_cast<float>(store.surfaces().support[i] * kept));
+    weakened.insert(weakened.end(), rows.begin(), rows.end());
+    return rows.size();
+}
+
 /// The method on one screen: thesis 3.3.3 to 4.2, and carving.
 void insertSamples(const ScanSamples& scan, const Pose& T_local_sensor, Model& model,
                    QueryCache& cache, InsertReport& report) {
@@ -121,8 +141,10 @@ void insertSamples(const ScanSamples& scan, const Pose& T_local_sensor, Model& m
     const SensorGeometry geometry{store.viewDirections(), limit};
     const NoveltySplit split =
         splitByNovelty(samples, cache.index(), params.novelty, &geometry);
-    std::vector<RayBundle> bundles = updateComponents(
-        store, updateKnown(store.surfaces(), cache.index(), samples, split), sensorOrigin);
+    KnownUpdate update = updateKnown(store.surfaces(), cache.index(), samples, split);
+    std::vector<std::uint32_t> hit = update.changed;
+    std::vector<RayBundle> bundles =
+        updateComponents(store, std::move(update), sensorOrigin);
     report.componentsUpdated = bundles.size();
 
     std::vector<std::uint32_t> weakened;
@@ -133,6 +155,7 @@ void insertSamples(const ScanSamples& scan, const Pose& T_local_sensor, Model& m
     }
     report.componentsOversized = weakened.size();
 
+    const std::size_t before = store.size();
     if (!split.novel.empty()) {
         const std::vector<RayBundle> added =
             addComponents(store, fitNovel(samples, split, limit, params), sensorOrigin,
@@ -147,9 +170,13 @@ void insertSamples(const ScanSamples& scan, const Pose& T_local_sensor, Model& m
     const std::vector<std::uint32_t> updatedFree =
         model.freeSpace.insert(bundles, sensorOrigin, cache.pyramid(),
                                params.occupancy.band, params.occupancy.freeSpace);
+    for (std::size_t i = before; i < store.size(); ++i)
+        hit.push_back(static_cast<std::uint32_t>(i));
+    const Mixture<3> ends = endsOfRays(samples, scan, T_local_sensor);
+    report.componentsMissed = decayMissed(
+        store, cache, hit, {ends, limit, scan.raySpacing_rad}, params.carving, weakened);
     for (const std::uint32_t i :
-         seenThrough(store.surfaces(), endsOfRays(samples, scan, T_local_sensor),
-                     sensorOrigin, cache.grid(), params.carving)) {
+         seenThrough(store.surfaces(), ends, sensorOrigin, cache.grid(), params.carving)) {
         const double trusted = std::min(store.surfaces().support[i], kTrustedHits);
         store.setSupport(i, static_cast<float>(trusted * params.carving.carvedSupport));
         weakened.push_back(i);

@@ -27,6 +27,8 @@ class MapUnderTest {
     virtual std::vector<Occupancy> occupancy(const Points& points_map) const = 0;
     /// Gaussians of surfaces, and of free space; none for other maps.
     virtual ComponentCount components() const { return {}; }
+    /// Size of the saved map [bytes]; 0 for other maps.
+    virtual std::size_t savedBytes() const { return 0; }
 
     /// Times of all insertions so far [ms].
     const std::vector<double>& insert_ms() const { return insert_ms_; }

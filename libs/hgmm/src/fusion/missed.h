@@ -1,0 +1,35 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "fusion/oversized.h"
+#include "hgmm/mixture.h"
+#include "index/coarse_grid.h"
+#include "index/component_index.h"
+
+namespace hgmm {
+
+/// The rays of one scan.
+struct ScanRays {
+    const Mixture<3>& ends;       ///< in the frame of the surfaces
+    const ThicknessLimit& limit;  ///< with the sensor's origin
+    double spacing_rad;           ///< angle between neighbours [rad], >= 0
+};
+
+/// Components that a scan had a ray for and did not hit: dust, and what range noise put
+/// beside a surface. Carving takes only what all rays of a direction pass; these may be
+/// beside an edge that stops some of the rays, or just behind a surface.
+///
+/// A ray is for a component if it passes within one standard deviation of its mean, or as
+/// near as half the angle to the next ray, in both cases within 3.6 degrees, and does not
+/// end before it by more than a surface may be thick (ThicknessLimit).
+/// @param hit rows that the scan gave support to, rising
+/// @param maxSupport components of so many hits or more are not asked for [count]
+/// @param index, grid of the surfaces
+/// @return rows, rising
+std::vector<std::uint32_t> missed(const Mixture<3>& surfaces,
+                                  const std::vector<std::uint32_t>& hit, float maxSupport,
+                                  const ScanRays& rays, const ComponentIndex& index,
+                                  const CoarseGrid& grid);
+
+}  // namespace hgmm
