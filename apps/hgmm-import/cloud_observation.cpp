@@ -12,8 +12,8 @@ namespace hgmm::importer {
 namespace {
 
 template <class PointsMap, class Insert>
-std::size_t fill(const PcdCloud& cloud_frame, const Pose& T_frame_sensor, PointsMap& map,
-                 Insert insert) {
+std::size_t fill(const RecordedCloud& cloud_frame, const Pose& T_frame_sensor,
+                 PointsMap& map, Insert insert) {
     const Pose T_sensor_frame = T_frame_sensor.inverse();
     map.reserve(cloud_frame.points.size());
     for (const auto& point : cloud_frame.points) {
@@ -27,8 +27,9 @@ std::size_t fill(const PcdCloud& cloud_frame, const Pose& T_frame_sensor, Points
 
 }  // namespace
 
-CloudObservation makeCloudObservation(const PcdCloud& cloud_frame,
-                                      const Pose& T_frame_sensor) {
+CloudObservation makeCloudObservation(const RecordedCloud& cloud_frame,
+                                      const Pose& T_frame_sensor,
+                                      const ChannelScales& scales, CloudChannel preferred) {
     using Eigen::Vector3f;
     CloudObservation result;
     result.observation = mrpt::obs::CObservationPointCloud::Create();
@@ -38,22 +39,25 @@ CloudObservation makeCloudObservation(const PcdCloud& cloud_frame,
         result.droppedPoints = fill(cloud_frame, T_frame_sensor, *map, insert);
         result.observation->pointcloud = map;
     };
-    if (cloud_frame.hasColor)
+    const bool colored = cloud_frame.hasColor &&
+                         (preferred == CloudChannel::color || !cloud_frame.hasIntensity);
+    if (colored)
         fillInto(mrpt::maps::CColouredPointsMap::Create(),
-                 [](auto& map, const Vector3f& p, const PcdPoint& point) {
-                     map.insertPointRGB(p.x(), p.y(), p.z(), point.r / 255.F,
-                                        point.g / 255.F, point.b / 255.F);
+                 [&](auto& map, const Vector3f& p, const RecordedPoint& point) {
+                     const auto& [r, g, b] = point.color;
+                     map.insertPointRGB(p.x(), p.y(), p.z(), r / scales.color,
+                                        g / scales.color, b / scales.color);
                  });
     else if (cloud_frame.hasIntensity)
-        fillInto(mrpt::maps::CPointsMapXYZI::Create(), [](auto& map, const Vector3f& p,
-                                                          const PcdPoint& point) {
+        fillInto(mrpt::maps::CPointsMapXYZI::Create(), [&](auto& map, const Vector3f& p,
+                                                           const RecordedPoint& point) {
             // An XYZI cloud takes the intensity for red, and has no other colour.
-            map.insertPointRGB(p.x(), p.y(), p.z(),
-                               std::isfinite(point.intensity) ? point.intensity : 0, 0, 0);
+            const float value = std::isfinite(point.intensity) ? point.intensity : 0;
+            map.insertPointRGB(p.x(), p.y(), p.z(), value / scales.intensity, 0, 0);
         });
     else
         fillInto(mrpt::maps::CSimplePointsMap::Create(),
-                 [](auto& map, const Vector3f& p, const PcdPoint&) {
+                 [](auto& map, const Vector3f& p, const RecordedPoint&) {
                      map.insertPointFast(p.x(), p.y(), p.z());
                  });
     return result;

@@ -41,16 +41,24 @@ void failFile(const fs::path& path, const std::string& what) {
     throw std::runtime_error(path.string() + ": " + what);
 }
 
-std::vector<NumberedFile> listNumberedFiles(const fs::path& folder,
-                                            const std::string& suffix) {
+std::vector<fs::path> listFiles(const fs::path& folder, const std::string& suffix) {
     if (!fs::is_directory(folder))
         failFile(folder, "is no folder; give the recording's folder");
-    std::vector<NumberedFile> files;
+    std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder))
         if (entry.is_regular_file() && endsWith(entry.path().filename().string(), suffix))
-            files.push_back({entry.path(), numberInName(entry.path(), suffix)});
+            files.push_back(entry.path());
     if (files.empty())
         failFile(folder, "holds no *" + suffix + " files; give another folder");
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+std::vector<NumberedFile> listNumberedFiles(const fs::path& folder,
+                                            const std::string& suffix) {
+    std::vector<NumberedFile> files;
+    for (const auto& path : listFiles(folder, suffix))
+        files.push_back({path, numberInName(path, suffix)});
     std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
         return a.number != b.number ? a.number < b.number : a.path < b.path;
     });

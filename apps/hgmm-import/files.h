@@ -17,6 +17,11 @@ struct NumberedFile {
 std::vector<NumberedFile> listNumberedFiles(const std::filesystem::path& folder,
                                             const std::string& suffix);
 
+/// The files of a folder whose name ends with a suffix, by name. Throws std::runtime_error
+/// if the folder is missing or has none.
+std::vector<std::filesystem::path> listFiles(const std::filesystem::path& folder,
+                                             const std::string& suffix);
+
 /// The whole file as bytes; throws std::runtime_error if it cannot be read.
 std::string readBytes(const std::filesystem::path& file);
 

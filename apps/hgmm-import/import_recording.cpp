@@ -3,6 +3,10 @@
 #include <unistd.h>
 
 #include <iostream>
+#include <optional>
+#include <stdexcept>
+
+#include "import_tally.h"
 
 namespace hgmm::importer {
 namespace {
@@ -27,29 +31,42 @@ class Progress {
     bool visible_;
 };
 
+/// The scan, or nothing if it cannot be read.
+std::optional<ImportedScan> tryLoad(const Source& source, std::size_t index,
+                                    ImportTally& tally) {
+    try {
+        return source.load(index);
+    } catch (const std::runtime_error& e) {
+        tally.addDamaged(e.what());
+        return std::nullopt;
+    }
+}
+
 }  // namespace
 
-void importRecording(const Source& source, const RecordingOutputs& outputs,
-                     std::size_t step) {
-    for (const auto& note : source.notes()) std::cerr << "note: " << note << "\n";
+void importRecording(Source& source, const RecordingOutputs& outputs, std::size_t step) {
+    const SourceSummary& summary = source.summary();
+    for (const auto& note : summary.notes) std::cerr << "note: " << note << "\n";
     const std::size_t total = (source.size() + step - 1) / step;
-    std::size_t dropped = 0;
+    ImportTally tally;
     RecordingWriter writer(outputs);
+    source.prepare();
     {
         const Progress progress(total);
         for (std::size_t i = 0; i < total; ++i) {
             progress.show(i + 1);
-            const ImportedScan scan = source.load(i * step);
-            dropped += scan.droppedPoints;
-            writer.add(scan);
+            const auto scan = tryLoad(source, i * step, tally);
+            if (!scan) continue;
+            tally.add(*scan);
+            writer.add(*scan);
         }
     }
+    tally.check(summary.expectedRange);
     writer.commit();
-    std::cout << "imported " << total << " scans into " << outputs.rawlog << ", poses into "
-              << outputs.poses;
+    std::cout << "imported " << tally.scans() << " scans into " << outputs.rawlog
+              << ", poses into " << outputs.poses;
     if (!outputs.simplemap.empty()) std::cout << ", simple map into " << outputs.simplemap;
-    if (dropped > 0) std::cout << "; left out " << dropped << " points without a return";
-    std::cout << std::endl;
+    std::cout << tally.describe(summary) << std::endl;
 }
 
 }  // namespace hgmm::importer

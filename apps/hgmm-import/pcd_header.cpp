@@ -70,7 +70,7 @@ std::size_t readPointCount(const Entries& entries) {
     return width * height;
 }
 
-void requireKnownType(const PcdField& field) {
+void requireKnownType(const CloudField& field) {
     const bool isFloat = field.type == 'F' && (field.size == 4 || field.size == 8);
     const bool isInteger =
         (field.type == 'I' || field.type == 'U') &&
@@ -81,7 +81,7 @@ void requireKnownType(const PcdField& field) {
                                  std::to_string(field.size));
 }
 
-void readFields(const Entries& entries, PcdHeader& header) {
+void readFields(const Entries& entries, CloudLayout& layout) {
     const auto names = words(entries, "FIELDS");
     const auto sizes = words(entries, "SIZE");
     const auto types = words(entries, "TYPE");
@@ -93,46 +93,27 @@ void readFields(const Entries& entries, PcdHeader& header) {
         throw std::runtime_error(
             "the header's FIELDS, SIZE, TYPE and COUNT differ in length");
     for (std::size_t i = 0; i < names.size(); ++i) {
-        PcdField field;
+        CloudField field;
         field.name = names[i];
         field.type = types[i][0];
         field.size = toCount(sizes[i], "SIZE");
         field.count = toCount(counts[i], "COUNT");
-        field.column = header.columns;
-        field.offset = header.stride;
         requireKnownType(field);
-        header.columns += field.count;
-        header.stride += field.count * field.size;
-        if (header.columns > kMostColumns)
+        if (field.count > kMostColumns)
             throw std::runtime_error("the header announces more than a million columns");
-        header.fields.push_back(field);
+        layout.add(field);
+        if (layout.columns > kMostColumns)
+            throw std::runtime_error("the header announces more than a million columns");
     }
-}
-
-void requireSingle(const PcdHeader& header, const std::string& name) {
-    const PcdField* field = header.find(name);
-    if (!field) throw std::runtime_error("the header has no field " + name);
-    if (field->count != 1)
-        throw std::runtime_error("the field " + name + " must have COUNT 1");
 }
 
 }  // namespace
 
-const PcdField* PcdHeader::find(const std::string& name) const {
-    for (const auto& field : fields)
-        if (field.name == name) return &field;
-    return nullptr;
-}
-
 PcdHeader parsePcdHeader(const std::string& bytes) {
     PcdHeader header;
     const Entries entries = readEntries(bytes, header.dataOffset);
-    readFields(entries, header);
-    for (const char* name : {"x", "y", "z"}) requireSingle(header, name);
-    for (const char* name : {"intensity", "rgb", "rgba"})
-        if (header.find(name)) requireSingle(header, name);
-
-    header.points = readPointCount(entries);
+    readFields(entries, header.layout);
+    header.layout.points = readPointCount(entries);
     header.data = entries.at("DATA");
     if (header.data != "ascii" && header.data != "binary" &&
         header.data != "binary_compressed")

@@ -1,5 +1,7 @@
 #include "rgbd_observation.h"
 
+#include <cstdio>
+
 #include "files.h"
 #include "mrpt_pose.h"
 
@@ -50,6 +52,14 @@ void readColor(const std::filesystem::path& file, CObservation3DRangeScan& o) {
 }
 
 }  // namespace
+
+std::string describeScale(const RgbdOptions& options, double usualUnitsPerMetre) {
+    char text[80];
+    std::snprintf(text, sizeof text, "%g units a metre%s",
+                  options.unitsPerMetre.value_or(usualUnitsPerMetre),
+                  options.unitsPerMetre ? "" : " (the format's usual)");
+    return text;
+}
 
 Pose opticalFromMrptCamera() {
     Pose pose;

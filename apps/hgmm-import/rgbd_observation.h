@@ -26,6 +26,16 @@ struct DepthFormat {
     std::optional<std::uint16_t> alsoInvalid;  ///< marks "no depth" besides 0
 };
 
+/// What the user says of a depth camera.
+struct RgbdOptions {
+    std::optional<Intrinsics> intrinsics;
+    std::optional<double> unitsPerMetre;  ///< of the depth images
+    double tolerance_s = 0.02;  ///< most between an image and a pose or colour image [s]
+};
+
+/// For the closing line: how many units of a depth image are a metre.
+std::string describeScale(const RgbdOptions& options, double usualUnitsPerMetre);
+
 /// The rotation from MRPT's camera axes (x forward, y left, z up) to those of pose files (x
 /// right, y down, z forward): the sensorPose of a camera whose pose is that of its optical
 /// frame.

@@ -147,3 +147,18 @@ TEST_F(Import7Scenes, BadFramesAreNamed) {
     import_test::writeColor(path("in/frame-0.depth.png"), 90);
     expectFailure("frame-0.depth.png", "16 bit");
 }
+
+TEST_F(Import7Scenes, FramesWithoutAPoseAreSkippedAndDepthScaleIsTaken) {
+    for (const char* name : {"in/frame-0", "in/frame-1", "in/frame-2"})
+        writeFrame(name, kPoseA);
+    writeFrame("in/frame-3", kPoseB);
+    std::filesystem::remove(path("in/frame-1.pose.txt"));
+    write("in/frame-2.pose.txt",
+          "-inf -inf -inf -inf\n-inf -inf -inf -inf\n-inf -inf -inf -inf\n0 0 0 1\n");
+    const auto result = importIt("7scenes in --depth-scale 2000");
+    EXPECT_NE(result.out.find("2 without a pose"), std::string::npos) << result.out;
+    const auto log = import_test::readRawlog<CObservation3DRangeScan>(path("out.rawlog"));
+    ASSERT_EQ(log.size(), 2U);
+    EXPECT_FLOAT_EQ(log[1]->rangeUnits, 0.0005F);
+    EXPECT_LT(import_test::poseDistance(poses()[1].T_world_frame, kPoseB), 1e-8);
+}

@@ -25,7 +25,7 @@ class ImportActions : public import_test::ImportTest {
         import_test::ImportTest::SetUp();
         std::string lines;
         for (int i = 0; i < kScans; ++i) {
-            lines += import_test::tumLine(50 + i, poseAt(i));
+            lines += import_test::tumLine(50.5 + i, poseAt(i));
             write("in/" + std::to_string(i) + ".pcd", import_test::asciiPcd(1, "1 2 3\n"));
         }
         write("poses.txt", lines);

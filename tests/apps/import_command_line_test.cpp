@@ -24,7 +24,7 @@ class ImportCommandLine : public import_test::ImportTest {
 TEST_F(ImportCommandLine, HelpNamesAllOptions) {
     const auto general = run("--help");
     EXPECT_EQ(general.exitCode, 0);
-    for (const char* format : {"tum", "7scenes", "kitti", "pcd", "simplemap"})
+    for (const char* format : {"tum", "7scenes", "kitti", "pcd", "ply", "simplemap"})
         EXPECT_NE(general.out.find(format), std::string::npos) << format;
     const auto pcd = run("pcd --help");
     EXPECT_EQ(pcd.exitCode, 0);
@@ -49,6 +49,11 @@ TEST_F(ImportCommandLine, WrongUsageIsTwo) {
           "pcd in --poses poses.txt --sensor-pose 0,0,0,0,0" + outputs,
           "pcd in --poses poses.txt --sensor-pose 0,0,0,0,0,nan" + outputs,
           "pcd in --poses poses.txt --step 0" + outputs,
+          "pcd in --poses poses.txt --match name" + outputs,
+          "pcd in --poses poses.txt --channel i" + outputs,
+          "pcd in --poses poses.txt --units-per-metre 0" + outputs,
+          "ply in" + outputs,
+          "tum in --depth-scale -1" + outputs,
           "pcd in --poses poses.txt --step -3" + outputs,
           "pcd in --poses poses.txt --odometry-noise 0.1,1" + outputs,
           "pcd in --poses poses.txt --actions --odometry-noise -1,1" + outputs,
@@ -82,7 +87,7 @@ TEST_F(ImportCommandLine, BadInputIsOneAndNamed) {
 
 TEST_F(ImportCommandLine, NumberlessNameAndBadTimesAreNamed) {
     const std::string outputs = " -o out.rawlog --poses-out out.tum";
-    write("poses.txt", import_test::tumLine(1.6e18, {}) + import_test::tumLine(1.7e18, {}));
+    write("poses.txt", import_test::tumLine(1.6e28, {}) + import_test::tumLine(1.7e28, {}));
     expectBadInput("pcd in --poses poses.txt" + outputs, "stamps in seconds");
     write("in/last.pcd", import_test::asciiPcd(1, "1 2 3\n"));
     expectBadInput("pcd in --poses poses.txt" + outputs,

@@ -19,6 +19,9 @@ class ImportKitti : public import_test::ImportTest {
             write(
                 "in/velodyne/" + name + ".bin",
                 import_test::bytesOf<float>({1, 2, 3, 0.25F, 0, 0, 0, 0, -4, 5, 6, 0.75F}));
+        writeLines(poseCount);
+    }
+    void writeLines(int poseCount) const {
         std::string poseLines;
         for (int i = 0; i < poseCount; ++i)
             poseLines += import_test::kittiLine(cameraPose(i));
@@ -59,7 +62,8 @@ TEST_F(ImportKitti, PartOfASequenceTakesPosesAndTimesByNumber) {
     writeSequence({"000002", "000004"}, 6);
     write("in/times.txt", "0 0.5 1.5 2 2.5 3.25\n");
     const auto result = importIt("kitti in --poses poses.txt");
-    EXPECT_NE(result.err.find("6 poses for 2 scans"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("6 poses for the 2 .bin files"), std::string::npos)
+        << result.err;
     const auto trajectory = poses();
     ASSERT_EQ(trajectory.size(), 2U);
     EXPECT_NEAR(trajectory[0].stamp, 1.5, 1e-6);
@@ -77,13 +81,15 @@ TEST_F(ImportKitti, SaysWhatIsWrong) {
         EXPECT_NE(result.err.find(what), std::string::npos) << result.err;
     };
     writeSequence({"000000", "000001", "000002"}, 2);
-    expectFailure("only 2 poses, 3 scans");
+    expectFailure("only 2 poses for the 3 .bin files");
     writeSequence({"000000", "000001", "000002"}, 3);
     write("in/times.txt", "0 1\n");
     expectFailure("times.txt: has only 2 times");
     std::filesystem::remove(path("in/times.txt"));
-    write("in/velodyne/000001.bin", std::string(30, 'x'));
-    expectFailure("000001.bin: is truncated");
+    for (const char* name : {"000000", "000001", "000002"})
+        write(std::string("in/velodyne/") + name + ".bin", std::string(30, 'x'));
+    writeLines(3);
+    expectFailure("000000.bin: is truncated");
     write("in/calib.txt", "P0: 1 2 3\n");
     expectFailure("calib.txt: has no line 'Tr:'");
     write("in/calib.txt", "Tr: 1 2 3\n");

@@ -77,7 +77,7 @@ TEST_F(ImportPcd, ReadsBinaryFieldsOfAnyOrderSizeAndType) {
     expectPoints(*o, {}, {{1, 2, 3}, {11, 12, 13}});
     const auto cloud = std::dynamic_pointer_cast<mrpt::maps::CPointsMapXYZI>(o->pointcloud);
     ASSERT_TRUE(cloud);
-    EXPECT_EQ(cloud->getPointIntensity(1), 65010.F);
+    EXPECT_FLOAT_EQ(cloud->getPointIntensity(1), 65010.F / 65535);
 }
 
 TEST_F(ImportPcd, ReadsCompressedWithRepetitions) {
@@ -187,28 +187,6 @@ TEST_F(ImportPcd, WorldFrameTakesTheRayOriginFromViewpoint) {
     EXPECT_NEAR(trajectory[1].stamp - trajectory[0].stamp, 0.1, 1e-6);
 }
 
-TEST_F(ImportPcd, FilesAreInNumericOrderAndFurtherPosesAreReported) {
-    std::string lines = "# t x y z qx qy qz qw\n";
-    for (int i = 0; i < 5; ++i)
-        lines += import_test::tumLine(100 + i, import_test::makePose(0, i, 0, 0, 0, 0));
-    write("poses.txt", lines);
-    for (const char* number : {"2", "10", "1"})
-        write(std::string("in/") + number + ".pcd",
-              asciiPcd(1, std::string(number) + " 0 0\n"));
-    const auto result = importIt("pcd in --poses poses.txt");
-    EXPECT_NE(result.err.find("5 poses for the 3 .pcd files"), std::string::npos)
-        << result.err;
-    const auto log = import_test::readRawlog<CObservationPointCloud>(path("out.rawlog"));
-    expectStampsMatch(log);
-    const auto trajectory = poses();
-    ASSERT_EQ(trajectory.size(), 3U);
-    const double order[] = {1, 2, 10};
-    for (std::size_t i = 0; i < 3; ++i) {
-        expectPoints(*log[i], trajectory[i].T_world_frame, {{order[i], double(i), 0}});
-        EXPECT_NEAR(trajectory[i].stamp, 100 + double(i), 1e-6);
-    }
-}
-
 TEST_F(ImportPcd, KittiPosesAreStampedATenthOfASecondApart) {
     write("poses.txt", import_test::kittiLine(kPose) + import_test::kittiLine(kPose));
     for (const char* name : {"in/0.pcd", "in/1.pcd"}) write(name, asciiPcd(1, "1 2 3\n"));
@@ -245,14 +223,4 @@ TEST_F(ImportPcd, BadFilesAreNamed) {
     noPoints.replace(noPoints.find("WIDTH 1\nHEIGHT 1\n"), 17,
                      "WIDTH 8589934592\nHEIGHT 2147483648\n");
     expectFailure(noPoints, "WIDTH and HEIGHT are no counts");
-}
-
-TEST_F(ImportPcd, TooFewPosesNamesBothCounts) {
-    for (const char* name : {"in/0.pcd", "in/1.pcd", "in/2.pcd"})
-        write(name, asciiPcd(1, "1 2 3\n"));
-    write("poses.txt", import_test::tumLine(0, {}) + import_test::tumLine(1, {}));
-    const auto result = run("pcd in --poses poses.txt -o out.rawlog --poses-out out.tum");
-    EXPECT_EQ(result.exitCode, 1);
-    EXPECT_NE(result.err.find("only 2 poses for the 3 .pcd files"), std::string::npos)
-        << result.err;
 }

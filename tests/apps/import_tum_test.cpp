@@ -100,3 +100,48 @@ TEST_F(ImportTum, SaysWhatIsMissing) {
     expectFailure("fr1", "depth.txt");
     expectFailure("nowhere_fr1", "nowhere_fr1");
 }
+
+TEST_F(ImportTum, DepthScaleIsTakenSaidAndDoubted) {
+    writeSequence("fr1");
+    const auto importScaled = [&](const std::string& options) {
+        return run("tum fr1 -o out.rawlog --poses-out out.tum " + options);
+    };
+    const auto guessed = importScaled("");
+    EXPECT_NE(guessed.out.find("5000 units a metre (the format's usual)"),
+              std::string::npos)
+        << guessed.out;
+    EXPECT_TRUE(guessed.err.empty()) << guessed.err;
+    const auto told = importScaled("--depth-scale 1000");
+    EXPECT_NE(told.out.find("scale 1000 units a metre; median range 6"), std::string::npos)
+        << told.out;
+    const auto log = import_test::readRawlog<CObservation3DRangeScan>(path("out.rawlog"));
+    EXPECT_FLOAT_EQ(log.at(0)->rangeUnits, 0.001F);
+    // A guess is doubted at .2 m, and what no depth camera measures is refused.
+    for (int i = 0; i < 3; ++i)
+        import_test::writeDepth(path("fr1/depth/" + std::to_string(i) + ".png"),
+                                {{24, 32, 1000}});
+    const auto doubted = importScaled("");
+    EXPECT_EQ(doubted.exitCode, 0);
+    EXPECT_NE(doubted.err.find("--depth-scale"), std::string::npos) << doubted.err;
+    EXPECT_TRUE(importScaled("--depth-scale 5000").err.empty());
+    std::filesystem::remove(path("out.rawlog"));
+    for (const char* scale : {"1", "10", "100000"}) {
+        const auto refused = importScaled(std::string("--depth-scale ") + scale);
+        EXPECT_EQ(refused.exitCode, 1) << scale;
+        EXPECT_NE(refused.err.find("--depth-scale"), std::string::npos) << refused.err;
+        EXPECT_FALSE(std::filesystem::exists(path("out.rawlog")));
+    }
+}
+
+TEST_F(ImportTum, OneLostImageIsSkipped) {
+    writeSequence("fr1");
+    std::filesystem::remove(path("fr1/depth/1.png"));
+    const auto result = importIt("tum fr1");
+    EXPECT_NE(result.out.find("skipped 1 scans (1 unreadable"), std::string::npos)
+        << result.out;
+    const auto log = import_test::readRawlog<CObservation3DRangeScan>(path("out.rawlog"));
+    expectStampsMatch(log);
+    ASSERT_EQ(log.size(), 2U);
+    EXPECT_EQ(log[1]->rangeImage(7, 9), 5002);
+    EXPECT_NEAR(poses()[1].T_world_frame.t.x(), 0.205, 4e-6);
+}

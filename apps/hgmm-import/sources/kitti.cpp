@@ -1,12 +1,12 @@
 #include "sources/kitti.h"
 
 #include <hgmm/evaluation/parse_numbers.h>
+#include <hgmm/evaluation/trajectory.h>
 
-#include <algorithm>
 #include <cstring>
 #include <sstream>
 
-#include "cloud_observation.h"
+#include "files.h"
 
 namespace hgmm::importer {
 namespace fs = std::filesystem;
@@ -40,7 +40,7 @@ Pose readCameraFromVelodyne(const fs::path& file) {
 }
 
 /// The sequence's times, if it has any, into the poses.
-void readTimes(const fs::path& file, evaluation::Trajectory& poses) {
+void readTimes(const fs::path& file, PoseFile& poses) {
     if (!fs::exists(file)) return;
     std::vector<double> times;
     try {
@@ -48,20 +48,22 @@ void readTimes(const fs::path& file, evaluation::Trajectory& poses) {
     } catch (const std::runtime_error& e) {
         failFile(file, e.what());
     }
-    if (times.size() < poses.size())
+    if (times.size() < poses.poses.size())
         failFile(file, "has only " + std::to_string(times.size()) + " times for " +
-                           std::to_string(poses.size()) + " poses; remove or complete it");
-    for (std::size_t i = 0; i < poses.size(); ++i) poses[i].stamp = times[i];
+                           std::to_string(poses.poses.size()) +
+                           " poses; remove or complete it");
+    stampLines(times, poses);
 }
 
-PcdCloud readVelodyne(const fs::path& file) {
+RecordedCloud readVelodyne(const fs::path& file) {
     const std::string bytes = readBytes(file);
     constexpr std::size_t pointSize = 4 * sizeof(float);
     if (bytes.size() % pointSize != 0)
         failFile(file, "is truncated: its " + std::to_string(bytes.size()) +
                            " bytes are no multiple of the 16 of a point; fetch it again");
-    PcdCloud cloud;
+    RecordedCloud cloud;
     cloud.hasIntensity = true;
+    cloud.used = {"x", "y", "z", "reflectance"};
     cloud.points.resize(bytes.size() / pointSize);
     for (std::size_t i = 0; i < cloud.points.size(); ++i) {
         float v[4];
@@ -74,34 +76,32 @@ PcdCloud readVelodyne(const fs::path& file) {
 
 }  // namespace
 
-KittiSource::KittiSource(const std::string& folder, const std::string& poseFile) {
-    const auto files = listNumberedFiles(fs::path(folder) / "velodyne", ".bin");
+KittiSource::KittiSource(const std::string& folder, const std::string& poseFile,
+                         const MatchOptions& match, const CloudOptions& options)
+    : CloudSource(options) {
+    const auto files = listFiles(fs::path(folder) / "velodyne", ".bin");
     const Pose T_camera_velodyne = readCameraFromVelodyne(fs::path(folder) / "calib.txt");
-    auto poses = evaluation::readTrajectory(poseFile);
-    readTimes(fs::path(folder) / "times.txt", poses);
-    const bool inOrder = poses.size() == files.size();
-    for (std::size_t i = 0; i < files.size(); ++i) {
-        const auto& [path, number] = files[i];
-        const std::size_t line = inOrder ? i : static_cast<std::size_t>(number);
-        if (line >= poses.size())
-            failFile(poseFile,
-                     "has only " + std::to_string(poses.size()) + " poses, " +
-                         std::to_string(files.size()) + " scans want one up to number " +
-                         std::to_string(files.back().number) +
-                         " (counted from 0); give the poses of the whole sequence");
-        const auto& pose = poses[line];
-        scans_.push_back({path, pose.stamp, pose.T_world_frame * T_camera_velodyne});
-    }
-    if (!inOrder)
-        notes_.push_back(poseFile + ": has " + std::to_string(poses.size()) +
-                         " poses for " + std::to_string(files.size()) +
-                         " scans; each scan takes the pose of its number");
+    auto poses = readPoseFile(poseFile);
+    if (poses.key == PoseKey::none) readTimes(fs::path(folder) / "times.txt", poses);
+    MatchOptions ofKitti = match;
+    ofKitti.countsFromZero = true;
+    const auto matching = matchPoses(files, poses, ofKitti);
+    scans_ = matching.scans;
+    for (auto& scan : scans_) scan.T_world_frame = scan.T_world_frame * T_camera_velodyne;
+    summary_.notes = matching.notes;
+    summary_.order = matching.order;
+    summary_.withoutPose = matching.withoutPose;
+}
+
+RecordedCloud KittiSource::readCloud(std::size_t index) const {
+    return readVelodyne(scans_.at(index).path);
 }
 
 ImportedScan KittiSource::load(std::size_t index) const {
-    const auto& scan = scans_.at(index);
-    auto [observation, dropped] = makeCloudObservation(readVelodyne(scan.path), Pose{});
-    return {observation, scan.stamp, scan.T_world_velodyne, dropped};
+    ImportedScan scan = makeScan(readCloud(index), Pose{});
+    scan.stamp = scans_[index].stamp;
+    scan.T_world_robot = scans_[index].T_world_frame;
+    return scan;
 }
 
 }  // namespace hgmm::importer

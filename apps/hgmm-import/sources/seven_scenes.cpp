@@ -10,6 +10,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kFramesPerSecond = 30;
+constexpr double kSevenScenesUnitsPerMetre = 1000;
 constexpr std::uint16_t kInvalidDepth = 65535;
 const std::string kDepthSuffix = ".depth.png";
 
@@ -54,32 +55,46 @@ std::optional<fs::path> findColor(const std::string& stem) {
 
 }  // namespace
 
-SevenScenesSource::SevenScenesSource(const std::string& folder,
-                                     const std::optional<Intrinsics>& intrinsics)
+SevenScenesSource::SevenScenesSource(const std::string& folder, const RgbdOptions& options)
     : camera_{585, 585, 320, 240} {
+    std::string firstProblem;
     for (const auto& [path, number] : listNumberedFiles(folder, kDepthSuffix)) {
         const std::string name = path.string();
         const std::string stem = name.substr(0, name.size() - kDepthSuffix.size());
-        const fs::path poseFile = stem + ".pose.txt";
-        if (!fs::exists(poseFile))
-            failFile(poseFile, "is missing; each depth image needs its pose");
-        frames_.push_back({{path, findColor(stem)},
-                           static_cast<double>(number) / kFramesPerSecond,
-                           readPose(poseFile)});
+        try {
+            const fs::path poseFile = stem + ".pose.txt";
+            if (!fs::exists(poseFile))
+                failFile(poseFile, "is missing; each depth image needs its pose");
+            frames_.push_back({{path, findColor(stem)},
+                               static_cast<double>(number) / kFramesPerSecond,
+                               readPose(poseFile)});
+        } catch (const std::runtime_error& e) {
+            if (firstProblem.empty()) firstProblem = e.what();
+            ++summary_.withoutPose;
+        }
     }
+    if (frames_.empty()) throw std::runtime_error(firstProblem);
+    if (!firstProblem.empty())
+        summary_.notes.push_back(firstProblem + " (" +
+                                 std::to_string(summary_.withoutPose) +
+                                 " frames without a pose are left out)");
     const fs::path intrinsicsFile = fs::path(folder) / "camera-intrinsics.txt";
-    if (intrinsics)
-        camera_ = *intrinsics;
+    if (options.intrinsics)
+        camera_ = *options.intrinsics;
     else if (fs::exists(intrinsicsFile))
         camera_ = readIntrinsics(intrinsicsFile);
+    format_.alsoInvalid = kInvalidDepth;
+    format_.metresPerUnit =
+        static_cast<float>(1 / options.unitsPerMetre.value_or(kSevenScenesUnitsPerMetre));
+    summary_.order = "by number";
+    summary_.scale = describeScale(options, kSevenScenesUnitsPerMetre);
+    summary_.expectedRange = depthCameraRange(options.unitsPerMetre.has_value());
 }
 
 ImportedScan SevenScenesSource::load(std::size_t index) const {
     const Frame& frame = frames_.at(index);
-    DepthFormat format;
-    format.alsoInvalid = kInvalidDepth;
     ImportedScan scan;
-    scan.observation = makeRgbdObservation(frame.images, camera_, format);
+    scan.observation = makeRgbdObservation(frame.images, camera_, format_);
     scan.stamp = frame.stamp;
     scan.T_world_robot = frame.T_world_optical;
     return scan;

@@ -39,6 +39,7 @@ SimpleMapSource::SimpleMapSource(const std::string& file) {
         }
     }
     if (scans_.empty()) failFile(file, "holds no scan; it needs range observations");
+    summary_.order = "by keyframe";
     readStamps();
 }
 
@@ -53,7 +54,7 @@ void SimpleMapSource::readStamps() {
         std::is_sorted(scans_.begin(), scans_.end(),
                        [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
     if (rising) return;
-    notes_.push_back("time stamps go back; scans are stamped 0.1 s apart instead");
+    summary_.notes.push_back("time stamps go back; scans are stamped 0.1 s apart instead");
     for (std::size_t i = 0; i < scans_.size(); ++i)
         scans_[i].stamp = evaluation::kDefaultPosePeriod * static_cast<double>(i);
 }

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "expected_range.h"
+
 namespace hgmm::importer {
 
 /// One scan of a recording, in MRPT's terms.
@@ -15,6 +17,16 @@ struct ImportedScan {
     double stamp = 0;                          ///< [s], of the recording's own epoch
     Pose T_world_robot;                        ///< where the frame of sensorPose was
     std::size_t droppedPoints = 0;  ///< points without a return, or not finite, left out
+    std::vector<std::string> usedFields, unusedFields;  ///< of the file, if it has any
+};
+
+/// What a source can say of how it reads a recording.
+struct SourceSummary {
+    std::vector<std::string> notes;  ///< how files and poses were matched; a line each
+    std::string order;               ///< what told the poses of scans
+    std::string scale;               ///< of lengths and channels; empty: nothing to say
+    std::size_t withoutPose = 0;     ///< scans left out because they have no pose
+    ExpectedRange expectedRange;
 };
 
 /// A recording on disk. Constructors look at the folder and the pose file, and load() at
@@ -26,13 +38,15 @@ class Source {
 
     /// How many scans have a pose.
     virtual std::size_t size() const = 0;
+    /// Reads through the recording for what one scan does not tell, before the first
+    /// load().
+    virtual void prepare() {}
     /// Scan number index, in [0, size()), in the order of time.
     virtual ImportedScan load(std::size_t index) const = 0;
-    /// What the user should know of how files and poses were matched; one line each.
-    const std::vector<std::string>& notes() const { return notes_; }
+    const SourceSummary& summary() const { return summary_; }
 
  protected:
-    std::vector<std::string> notes_;
+    SourceSummary summary_;
 };
 
 }  // namespace hgmm::importer

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <sstream>
 
 #include "files.h"
@@ -13,8 +14,7 @@ namespace hgmm::importer {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double kMaxGap = 0.020;  // [s], as the benchmark's own association script
-constexpr float kMetresPerUnit = 1.F / 5000;
+constexpr double kTumUnitsPerMetre = 5000;
 
 struct StampedFile {
     double stamp = 0;
@@ -46,12 +46,13 @@ std::vector<StampedFile> readList(const fs::path& list) {
     return files;
 }
 
-std::optional<fs::path> nearestInTime(const std::vector<StampedFile>& files, double stamp) {
+std::optional<fs::path> nearestInTime(const std::vector<StampedFile>& files, double stamp,
+                                      double tolerance_s) {
     const auto nearest =
         std::min_element(files.begin(), files.end(), [&](const auto& a, const auto& b) {
             return std::abs(a.stamp - stamp) < std::abs(b.stamp - stamp);
         });
-    if (nearest == files.end() || std::abs(nearest->stamp - stamp) > kMaxGap)
+    if (nearest == files.end() || std::abs(nearest->stamp - stamp) > tolerance_s)
         return std::nullopt;
     return nearest->path;
 }
@@ -75,35 +76,43 @@ Intrinsics intrinsicsByName(const std::string& folder) {
 
 }  // namespace
 
-TumSource::TumSource(const std::string& folder,
-                     const std::optional<Intrinsics>& intrinsics) {
+TumSource::TumSource(const std::string& folder, const RgbdOptions& options) {
     const fs::path root(folder);
     if (!fs::is_directory(root))
         failFile(root, "is no folder; give the recording's folder");
-    camera_ = intrinsics ? *intrinsics : intrinsicsByName(folder);
+    camera_ = options.intrinsics ? *options.intrinsics : intrinsicsByName(folder);
+    format_.metresPerUnit =
+        static_cast<float>(1 / options.unitsPerMetre.value_or(kTumUnitsPerMetre));
     const auto depths = readList(root / "depth.txt");
     const fs::path colorList = root / "rgb.txt";
     const auto colors =
         fs::exists(colorList) ? readList(colorList) : std::vector<StampedFile>{};
     const fs::path poseFile = root / "groundtruth.txt";
     const auto poses = evaluation::readTrajectory(poseFile.string());
+    const double tolerance_s = options.tolerance_s;
     for (const auto& [stamp, path] : depths)
-        if (const auto pose = evaluation::poseAt(poses, stamp, kMaxGap))
-            frames_.push_back({{path, nearestInTime(colors, stamp)}, stamp, *pose});
-    const std::string counts = "has a pose within 20 ms for " +
+        if (const auto pose = evaluation::poseAt(poses, stamp, tolerance_s))
+            frames_.push_back(
+                {{path, nearestInTime(colors, stamp, tolerance_s)}, stamp, *pose});
+    char within[60];
+    std::snprintf(within, sizeof within, "within %g ms", 1e3 * tolerance_s);
+    const std::string counts = "has a pose " + std::string(within) + " for " +
                                std::to_string(frames_.size()) + " of " +
                                std::to_string(depths.size()) + " depth images";
     if (frames_.empty()) failFile(poseFile, counts + "; give the poses of this recording");
     if (frames_.size() < depths.size())
-        notes_.push_back(poseFile.string() + ": " + counts + "; the others are left out");
+        summary_.notes.push_back(poseFile.string() + ": " + counts +
+                                 "; the others are left out");
+    summary_.order = "by stamp (poses " + std::string(within) + ", interpolated)";
+    summary_.withoutPose = depths.size() - frames_.size();
+    summary_.scale = describeScale(options, kTumUnitsPerMetre);
+    summary_.expectedRange = depthCameraRange(options.unitsPerMetre.has_value());
 }
 
 ImportedScan TumSource::load(std::size_t index) const {
     const Frame& frame = frames_.at(index);
-    DepthFormat format;
-    format.metresPerUnit = kMetresPerUnit;
     ImportedScan scan;
-    scan.observation = makeRgbdObservation(frame.images, camera_, format);
+    scan.observation = makeRgbdObservation(frame.images, camera_, format_);
     scan.stamp = frame.stamp;
     scan.T_world_robot = frame.T_world_optical;
     return scan;
