@@ -95,7 +95,8 @@ Matching matchPoses(const Paths& files, const PoseFile& poses,
     if (byStamp) matching = matchStamps(files, likelyTimes, poses, options, 1);
     if (!matching && byNumber) matching = matchNumbers(files, *number, poses, options);
     if (!matching && byStamp && number != readings.end()) {
-        // Short numbers are times only if each of them meets a pose of its own.
+        // Short numbers are times only if each of them meets a pose of its own, and one
+        // alone would meet by chance.
         matching =
             matchStamps(files, {number + 1, readings.end()}, poses, options, files.size());
     }

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <sstream>
@@ -146,6 +147,19 @@ void addVertex(const std::string& text, char& letter, PoseFile& file) {
     file.poses.push_back(pose);
 }
 
+/// Throws std::runtime_error if a comment names a quaternion's numbers in another order
+/// than the files that are read have it.
+void requireOrderOfQuaternion(std::string comment) {
+    comment.erase(std::remove(comment.begin(), comment.end(), '_'), comment.end());
+    std::transform(comment.begin(), comment.end(), comment.begin(), [](char c) {
+        return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    });
+    const auto w = comment.find("qw"), x = comment.find("qx");
+    if (w != std::string::npos && x != std::string::npos && w < x)
+        throw std::runtime_error(
+            "says that qw comes before qx; write the file with qx qy qz qw");
+}
+
 bool startsG2o(const std::string& text) {
     for (const char* tag : {"VERTEX_", "EDGE_", "FIX", "PARAMS_"})
         if (text.rfind(tag, 0) == 0) return true;
@@ -217,9 +231,13 @@ PoseFile readPoseFile(const std::string& path) {
         ++number;
         std::replace(text.begin(), text.end(), ',', ' ');
         const auto first = text.find_first_not_of(" \t\r");
-        if (first == std::string::npos || text[first] == '#') continue;
+        if (first == std::string::npos) continue;
         text.erase(0, first);
         try {
+            if (text[0] == '#') {
+                requireOrderOfQuaternion(text);
+                continue;
+            }
             if (columns == 0) g2o = g2o || startsG2o(text);
             if (g2o) {
                 addVertex(text, letter, file);

@@ -76,7 +76,11 @@ struct ExportOptions {
     hgmm::evaluation::View view;             ///< png only
     hgmm::mrpt_bridge::RenderParams render;  ///< 3Dscene only; level is taken from above
     double resolution_m = 0.0;               ///< bt, ot, yaml, voxels [m]; 0: derived
-    std::optional<double> height_m;          ///< yaml: of the slice [m], in the map frame
+    /// bt, ot: the point of the map that becomes the tree's origin, x, y, z [m], rounded to
+    /// whole cells; empty: the map's (0, 0, 0).
+    std::vector<double> offset_map;
+    bool local = false;              ///< bt, ot: that point is the map's own origin
+    std::optional<double> height_m;  ///< yaml: of the slice [m], in the map frame
 };
 
 /// `hgmm-map export`: one level in another program's format, in the map frame.

@@ -1,6 +1,7 @@
 #include "export_command.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -43,8 +44,32 @@ std::vector<Restricted> defineSceneOptions(CLI::App& exports,
             {modality, {"3Dscene"}}};
 }
 
+/// Where the origin of an octree is.
+std::vector<Restricted> defineOffset(CLI::App& exports, ExportOptions& exporting) {
+    const auto finite = [](const std::string& word) -> std::string {
+        double value = 0;
+        const bool isNumber =
+            CLI::detail::lexical_cast(word, value) && std::isfinite(value);
+        return isNumber ? "" : "'" + word + "' must be a finite number";
+    };
+    CLI::Option* offset =
+        exports
+            .add_option("--offset", exporting.offset_map,
+                        "bt, ot: point of the map that becomes the tree's origin [m], "
+                        "rounded to whole cells; written beside the tree")
+            ->delimiter(',')
+            ->expected(3)
+            ->type_name("X,Y,Z")
+            ->check(CLI::Validator(finite, ""));
+    CLI::Option* local = exports.add_flag("--local", exporting.local,
+                                          "bt, ot: --offset with the map's own origin");
+    local->excludes(offset);
+    return {{offset, {"bt", "ot"}}, {local, {"bt", "ot"}}};
+}
+
 std::vector<Restricted> defineOptions(CLI::App& exports, ExportOptions& exporting) {
     std::vector<Restricted> options = defineSceneOptions(exports, exporting.render);
+    for (const auto& option : defineOffset(exports, exporting)) options.push_back(option);
     options.emplace_back(
         exports
             .add_option("--points-per-component", exporting.pointsPerComponent,

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
 #include <sstream>
 #include <stdexcept>
 
@@ -20,9 +23,9 @@ float clampedLogOdds(double probability, const octomap::OcTree& tree) {
     return static_cast<float>(std::log(p / (1.0 - p)));
 }
 
-void enter(const hgmm::mrpt_bridge::Voxel& voxel, const std::string& file,
-           octomap::OcTree& tree) {
-    const Eigen::Vector3d& p = voxel.centre_map;
+void enter(const hgmm::mrpt_bridge::Voxel& voxel, const Eigen::Vector3d& offset_map,
+           const std::string& file, octomap::OcTree& tree) {
+    const Eigen::Vector3d p = voxel.centre_map - offset_map;
     octomap::OcTreeKey key;
     // In double: octomap's own points are floats, too coarse far from the origin.
     for (int axis = 0; axis < 3; ++axis)
@@ -30,10 +33,33 @@ void enter(const hgmm::mrpt_bridge::Voxel& voxel, const std::string& file,
             throw std::runtime_error(
                 file + ": an octree of " + std::to_string(tree.getResolution()) +
                 " m reaches " + std::to_string(32768 * tree.getResolution()) +
-                " m from the origin, and the map farther; choose a larger --resolution");
+                " m from the origin, and the map farther; give --local or --offset X,Y,Z, "
+                "or choose a larger --resolution");
     constexpr bool innerNodesLater = true;
     tree.setNodeValue(key, clampedLogOdds(voxel.occupancy.probability(), tree),
                       innerNodesLater);
+}
+
+/// The point of the map that becomes the tree's origin: on a corner of cells, so that they
+/// stay cells.
+Eigen::Vector3d offsetOf(const hgmm::Map& map, const ExportOptions& options,
+                         double edge_m) {
+    Eigen::Vector3d wanted = Eigen::Vector3d::Zero();
+    if (options.local) wanted = map.origin();
+    if (!options.offset_map.empty())
+        wanted = Eigen::Vector3d::Map(options.offset_map.data());
+    return edge_m * (wanted / edge_m).array().round();
+}
+
+void tellOffset(const Eigen::Vector3d& offset_map, const std::string& output) {
+    char text[120];
+    std::snprintf(text, sizeof text, "%.9f %.9f %.9f\n", offset_map.x(), offset_map.y(),
+                  offset_map.z());
+    const std::string file =
+        std::filesystem::path(output).replace_extension(".offset.txt").string();
+    hgmm::evaluation::writeTextFile(file, text);
+    std::cout << "offset " << text << "written to " << file
+              << ": add it to the tree's points to have those of the map" << std::endl;
 }
 
 }  // namespace
@@ -45,7 +71,8 @@ void exportOctree(const hgmm::Map& map, const ExportOptions& options) {
     params.resolution_m = options.resolution_m;
     const hgmm::mrpt_bridge::VoxelGrid grid = hgmm::mrpt_bridge::voxelise(map, params);
     octomap::OcTree tree(grid.resolution_m);
-    for (const auto& voxel : grid.voxels) enter(voxel, options.output, tree);
+    const Eigen::Vector3d offset_map = offsetOf(map, options, grid.resolution_m);
+    for (const auto& voxel : grid.voxels) enter(voxel, offset_map, options.output, tree);
     tree.updateInnerOccupancy();
     tree.prune();
 
@@ -55,6 +82,8 @@ void exportOctree(const hgmm::Map& map, const ExportOptions& options) {
         options.format == "bt" ? tree.writeBinary(bytes) : tree.write(bytes);
     if (!written) throw std::runtime_error(options.output + ": cannot be written");
     hgmm::evaluation::writeTextFile(options.output, bytes.str());
+    if (options.local || !options.offset_map.empty())
+        tellOffset(offset_map, options.output);
 }
 
 }  // namespace maptool

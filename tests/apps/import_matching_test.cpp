@@ -286,6 +286,8 @@ TEST_F(ImportMatching, BadPoseFilesAreNamed) {
     expectRefused("no unit quaternion");
     write("poses.txt", "VERTEX_SE2 0 1 2\n");
     expectRefused("poses.txt:1: VERTEX_SE2 needs 3 numbers");
+    write("poses.txt", "#t x y z q_w q_x q_y q_z\n0 0 0 0 1 0 0 0\n");
+    expectRefused("poses.txt:1: says that qw comes before qx");
     write("poses.txt", "VERTEX_XY 0 1 2\n");
     expectRefused("holds no poses");
     write("poses.txt", import_test::tumLine(5.1, {}) + import_test::tumLine(4.1, {}));

@@ -2,6 +2,7 @@
 #include <octomap/OcTree.h>
 
 #include <cmath>
+#include <fstream>
 #include <memory>
 #include <sstream>
 
@@ -238,6 +239,52 @@ TEST_F(MapOccupancy, ExportRefusesWhatCannotBe) {
     EXPECT_FALSE(std::filesystem::exists(path("m.bt"))) << "nothing half done";
     mrpt::maps::CHGMMOccupancyMap().saveToFile(path("empty.hgmm"));
     expectRefused("export " + path("empty.hgmm") + " " + path("m.bt"), 1, "empty");
+}
+
+// In UTM coordinates (whole metres, as the origins of maps are), a tree that is shifted
+// back holds what the tree at the origin holds.
+TEST_F(MapOccupancy, OctreeOfAFarMapTakesAnOffset) {
+    const mrpt::poses::CPose3D offsets[] = {{0, 0, 0, 0, 0, 0},
+                                            {448262, 5411933, 120, 0, 0, 0}};
+    for (const auto& offset : offsets) {
+        mrpt::maps::CHGMMOccupancyMap map;
+        map.insertObservation(
+            *box_room::pointCloud(mrpt::poses::CPose3D(), box_room::timeOfScan(0), 4000),
+            offset);
+        map.saveToFile(path(offset.x() == 0 ? "near.hgmm" : "utm.hgmm"));
+    }
+    const std::string utm = "export " + path("utm.hgmm") + " " + path("utm.ot") + " ";
+    expectRefused(utm + "--resolution 0.2", 1, "--offset");
+    expectRefused(utm + "--offset 1,2", 2, "--offset");
+    expectRefused(utm + "--offset 1,2,nan", 2, "--offset");
+    expectRefused(utm + "--local --offset 1,2,3", 2, "--local");
+    expectRefused("export " + path("utm.hgmm") + " " + path("utm.ply") + " --local", 2,
+                  "--local");
+    ASSERT_EQ(
+        mapTool("export " + path("near.hgmm") + " " + path("near.ot") + " --resolution 0.2")
+            .exitCode,
+        0);
+    const auto nearTree = readTree("near.ot");
+    for (const std::string option : {"--offset 448262.07,5411932.95,120.02", "--local"}) {
+        ASSERT_EQ(mapTool(utm + "--resolution 0.2 " + option).exitCode, 0);
+        std::ifstream file(path("utm.offset.txt"));
+        double x = 0, y = 0, z = 0;
+        ASSERT_TRUE(file >> x >> y >> z);
+        EXPECT_NEAR(x, 448262, option == "--local" ? 20 : 0.11);
+        const auto tree = readTree("utm.ot");
+        ASSERT_TRUE(tree && nearTree);
+        EXPECT_NEAR(static_cast<double>(tree->size()),
+                    static_cast<double>(nearTree->size()), 0.1 * double(nearTree->size()));
+        std::size_t same = 0, all = 0;
+        for (auto leaf = nearTree->begin_leafs(); leaf != nearTree->end_leafs(); ++leaf) {
+            const auto p = leaf.getCoordinate();
+            const auto* other = tree->search(p.x() + 448262.0 - x, p.y() + 5411933.0 - y,
+                                             p.z() + 120.0 - z);
+            ++all;
+            same += other && tree->isNodeOccupied(other) == nearTree->isNodeOccupied(*leaf);
+        }
+        EXPECT_GT(static_cast<double>(same), 0.99 * static_cast<double>(all));
+    }
 }
 
 // An octree has 32768 cells to each side of the map frame's origin, wherever the map is.
