@@ -28,7 +28,7 @@ for scan in "$data"/scans/*.pcd; do
 done
 grep -v '^#' "$data/poses_tum.txt" | awk '(NR - 1) % 5 == 2' >"$out/test.tum"
 grep -v '^#' "$data/poses_tum.txt" | awk '(NR - 1) % 5 != 2' >"$out/mapping.tum"
-hgmm-import pcd "$out/mapping" --poses "$out/mapping.tum" --sensor-pose $sensor \
+hgmm-import pcd "$out/mapping" --poses "$out/mapping.tum" --match order --sensor-pose $sensor \
     -o "$out/mapping.rawlog" --poses-out "$out/mapping.out.tum" \
     --cloud "$out/points.simplemap" >/dev/null
 hgmm-replay "$out/mapping.rawlog" --poses "$out/mapping.out.tum" --quiet \
@@ -53,7 +53,7 @@ INI
 localise() { # MAP RUN
     mkdir "$out/$1-$2"
     cd "$out/$1-$2"
-    hgmm-import pcd ../test --poses ../test.tum --sensor-pose "$sensor" --actions \
+    hgmm-import pcd ../test --poses ../test.tum --match order --sensor-pose "$sensor" --actions \
         --odometry-noise 0.05,1 --seed "$2" -o test.rawlog --poses-out truth.tum >/dev/null
     local start end
     start=$(date +%s.%N)
