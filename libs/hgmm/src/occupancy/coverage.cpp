@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::int32_t kInBlock = (1 << Coverage::kBlockShift) - 1;
 constexpr unsigned kAllCorners = 255;
+constexpr auto kAllCells = ~Coverage::Word{0};
 
 /// Cells are at least this many spacings of rays wide, so that a sparse sensor leaves no
 /// gaps, but for its sake no wider than the gap that is bridged: things hide in wider ones.
@@ -44,6 +45,23 @@ void forEachCell(const LatticeCell& block, Coverage::Word word, Visitor&& visit)
     }
 }
 
+/// The cells of a block that a segment in it passes. Its ends may be out by rounding.
+Coverage::Word cellsPassed(const LatticeCell& block, const Eigen::Vector3d& from,
+                           const Eigen::Vector3d& to) {
+    const std::int32_t low[3] = {block.x << Coverage::kBlockShift,
+                                 block.y << Coverage::kBlockShift,
+                                 block.z << Coverage::kBlockShift};
+    Coverage::Word passed = 0;
+    walkCells(from, to, powerOfTwo(-block.octave),
+              [&](const std::int32_t* c, double, double) {
+                  std::int32_t cell[3];
+                  for (int d = 0; d < 3; ++d)
+                      cell[d] = std::clamp(c[d], low[d], low[d] + kInBlock);
+                  passed |= bitOf(cell[0], cell[1], cell[2]);
+              });
+    return passed;
+}
+
 }  // namespace
 
 void Coverage::mark(const LatticeCell& block, Word cells) {
@@ -62,21 +80,16 @@ void Coverage::mark(const LatticeCell& cell) {
 
 void Coverage::markSegment(int octave, const Eigen::Vector3d& from,
                            const Eigen::Vector3d& to) {
-    LatticeCell block{octave, 0, 0, 0};
-    Word passed = 0;
-    const auto finish = [&] {
-        if ((passed & ~word(block)) != 0) mark(block, passed);
-    };
-    walkCells(from, to, powerOfTwo(-octave), [&](const std::int32_t* c, double, double) {
-        const LatticeCell own = blockOf({octave, c[0], c[1], c[2]});
-        if (!(own == block)) {
-            if (passed != 0) finish();
-            block = own;
-            passed = 0;
-        }
-        passed |= bitOf(c[0], c[1], c[2]);
-    });
-    finish();
+    const Eigen::Vector3d along = to - from;
+    walkCells(from, to, powerOfTwo(-octave - kBlockShift),
+              [&](const std::int32_t* c, double in, double out) {
+                  const LatticeCell block{octave, c[0], c[1], c[2]};
+                  const Word known = word(block);
+                  if (known == kAllCells) return;
+                  const Word passed =
+                      cellsPassed(block, from + in * along, from + out * along);
+                  if ((passed & ~known) != 0) mark(block, passed);
+              });
 }
 
 Coverage::Rays::Rays(const CoverageParams& params, double raySpacing_rad,
