@@ -100,7 +100,6 @@ ObservationLikelihood& ObservationLikelihood::operator=(const ObservationLikelih
 double ObservationLikelihood::operator()(const Map& map, const LikelihoodParams& params,
                                          const mrpt::obs::CObservation& observation,
                                          const mrpt::poses::CPose3D& T_map_robot) const {
-    if (map.empty()) return 0;
     const std::uint64_t digest = digestOf(observation, Digested::sample);
     const auto points = recentPoints().get(
         observation, digest, params, [&] { return pointsToCompare(observation, params); });
@@ -112,6 +111,7 @@ double ObservationLikelihood::operator()(const Map& map, const LikelihoodParams&
     if (!kernel)
         kernel = AskedPoses::ofProcess().kernelAt(family_, number_, observation, digest,
                                                   t_local, T.R);
+    if (map.empty()) return 0;
     const auto surfaces = surfacesOf(map, *kernel);
     LogOfProduct product;
     for (const Eigen::Vector3d& p : *points) {
