@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <random>
 #include <thread>
@@ -55,23 +56,24 @@ std::vector<double> ask(const CHGMMOccupancyMap& map,
     return values;
 }
 
-/// The likelihood of scans with a kernel that is set.
-double withKernel(const CHGMMOccupancyMap& map, double width_m, double outlierRatio,
-                  int independentPoints) {
+/// The likelihood with the kernel for poses of unknown spread.
+double wideValue(const CHGMMOccupancyMap& map, const CPose3D& pose = kProbe) {
+    CHGMMOccupancyMap fresh;
+    fresh.model() = map.model();
+    return fresh.computeObservationLikelihood(*scanAt(0), pose);
+}
+double narrowValue(const CHGMMOccupancyMap& map) {
     CHGMMOccupancyMap fixed = map;
-    fixed.likelihoodOptions.kernelWidth_m = width_m;
-    fixed.likelihoodOptions.outlierRatio = outlierRatio;
-    fixed.likelihoodOptions.independentPoints = independentPoints;
+    fixed.likelihoodOptions.independentPoints = 60;
     return fixed.computeObservationLikelihood(*scanAt(0), kProbe);
 }
 
 bool isWide(const CHGMMOccupancyMap& map, const mrpt::obs::CObservation& scan) {
-    const double value = map.computeObservationLikelihood(scan, kProbe);
-    return std::abs(value - withKernel(map, 0.2, 0.3, 15)) < 1e-9;
+    return map.computeObservationLikelihood(scan, kProbe) == wideValue(map);
 }
 bool isNarrow(const CHGMMOccupancyMap& map, const mrpt::obs::CObservation& scan) {
-    const double value = map.computeObservationLikelihood(scan, kProbe);
-    return std::abs(value - withKernel(map, 0.02, 0.05, 60)) < 1e-9;
+    return std::abs(map.computeObservationLikelihood(scan, kProbe) - narrowValue(map)) <
+           1e-9;
 }
 
 TEST(AskedPoses, WideAtTheStartNarrowOnceTheyAgree) {
@@ -80,8 +82,7 @@ TEST(AskedPoses, WideAtTheStartNarrowOnceTheyAgree) {
     ask(map, *scanAt(1), posesAround(2, 2));
     EXPECT_TRUE(isWide(map, *scanAt(2)));
     ask(map, *scanAt(2), posesAround(0.05, 0.03));
-    const double narrow = withKernel(map, 0.02, 0.05, 60);
-    EXPECT_LT(narrow, withKernel(map, 0.2, 0.3, 15) - 1) << "the probe tells them apart";
+    EXPECT_LT(narrowValue(map), wideValue(map) - 1) << "the probe tells them apart";
     EXPECT_TRUE(isNarrow(map, *scanAt(3)));
     // Headings count as positions do, and the next observation follows at once.
     ask(map, *scanAt(3), posesAround(0.05, 0.5));
@@ -90,6 +91,12 @@ TEST(AskedPoses, WideAtTheStartNarrowOnceTheyAgree) {
     ask(map, *scanAt(4), posesAround(0.25, 0.03));
     EXPECT_FALSE(isWide(map, *scanAt(5)));
     EXPECT_FALSE(isNarrow(map, *scanAt(5)));
+}
+
+// Where no point is near a surface, all that counts is the outlier ratio.
+TEST(AskedPoses, OutliersOfTheWideKernelCountAsFifteen) {
+    const CHGMMOccupancyMap map = askableMap();
+    EXPECT_NEAR(wideValue(map, CPose3D(1e3, 0, 0, 0, 0, 0)), 15 * std::log(0.3), 1e-9);
 }
 
 TEST(AskedPoses, NothingIsKnownAfterClearingLoadingAndForgetting) {

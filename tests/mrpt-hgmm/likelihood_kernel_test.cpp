@@ -32,6 +32,16 @@ TEST(LikelihoodKernel, IsWideWhereNothingIsKnownAndNarrowWhereAllPosesAgree) {
     expectKernel(kernelFor(PoseSpread{0.2, 0.1}), 0.02, 0.05, 60);
 }
 
+TEST(LikelihoodKernel, FewIndependentPointsTakeFewerPoints) {
+    EXPECT_EQ(kernelFor(PoseSpread{0, 0}).shareOfPoints, 1);
+    EXPECT_EQ(kernelFor(std::nullopt).shareOfPoints, 0.5);
+    EXPECT_NEAR(kernelFor(PoseSpread{std::sqrt(0.2 * 0.6), 0}).shareOfPoints,
+                std::sqrt(0.5), 1e-12);
+    LikelihoodParams params;
+    params.independentPoints = 5;
+    EXPECT_EQ(fixedKernel(params)->shareOfPoints, 1);
+}
+
 TEST(LikelihoodKernel, EitherSpreadWidensIt) {
     // Half way, by the logarithm.
     const double metres = std::sqrt(0.2 * 0.6), radians = std::sqrt(0.1 * 0.3);

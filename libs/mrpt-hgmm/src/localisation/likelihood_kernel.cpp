@@ -7,7 +7,7 @@ namespace hgmm::mrpt_bridge {
 
 namespace {
 
-constexpr LikelihoodKernel kNarrow{0.02, 0.05, 60}, kWide{0.2, 0.3, 15};
+constexpr LikelihoodKernel kNarrow{0.02, 0.05, 60, 1}, kWide{0.2, 0.3, 15, 0.5};
 /// Up to which spread the kernel is the narrow one, and from which it is the wide one.
 constexpr PoseSpread kConverged{0.2, 0.1}, kSearching{0.6, 0.3};
 
@@ -34,7 +34,8 @@ std::optional<LikelihoodKernel> fixedKernel(const LikelihoodParams& params) {
     };
     return LikelihoodKernel{orNarrow(params.kernelWidth_m, kNarrow.kernelWidth_m),
                             orNarrow(params.outlierRatio, kNarrow.outlierRatio),
-                            orNarrow(params.independentPoints, kNarrow.independentPoints)};
+                            orNarrow(params.independentPoints, kNarrow.independentPoints),
+                            kNarrow.shareOfPoints};
 }
 
 LikelihoodKernel kernelFor(const std::optional<PoseSpread>& spread) {
@@ -45,7 +46,8 @@ LikelihoodKernel kernelFor(const std::optional<PoseSpread>& spread) {
     const double step = std::round(share * kSteps) / kSteps;
     return {mixed(kNarrow.kernelWidth_m, kWide.kernelWidth_m, step),
             mixed(kNarrow.outlierRatio, kWide.outlierRatio, step),
-            mixed(kNarrow.independentPoints, kWide.independentPoints, step)};
+            mixed(kNarrow.independentPoints, kWide.independentPoints, step),
+            mixed(kNarrow.shareOfPoints, kWide.shareOfPoints, step)};
 }
 
 }  // namespace hgmm::mrpt_bridge

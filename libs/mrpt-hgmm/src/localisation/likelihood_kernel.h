@@ -11,6 +11,7 @@ struct LikelihoodKernel {
     double kernelWidth_m;      ///< [m]
     double outlierRatio;       ///< in (0, 1)
     double independentPoints;  ///< [count]
+    double shareOfPoints;      ///< of those that maxPoints allows, in (0, 1]
 };
 
 /// The kernel that options fix, if one of them does.

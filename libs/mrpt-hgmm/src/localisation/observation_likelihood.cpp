@@ -113,13 +113,15 @@ double ObservationLikelihood::operator()(const Map& map, const LikelihoodParams&
                                                   t_local, T.R);
     if (map.empty()) return 0;
     const auto surfaces = surfacesOf(map, *kernel);
+    const auto compared =
+        static_cast<std::size_t>(std::ceil(double(points->size()) * kernel->shareOfPoints));
     LogOfProduct product;
-    for (const Eigen::Vector3d& p : *points) {
+    for (std::size_t i = 0; i < compared; ++i) {
+        const Eigen::Vector3d& p = (*points)[i * points->size() / compared];
         const Eigen::Vector3f local = (T.R * p + t_local).cast<float>();
         product.multiply(surfaces->likelihood.probability(local.x(), local.y(), local.z()));
     }
-    return product.log() *
-           std::min(1.0, kernel->independentPoints / double(points->size()));
+    return product.log() * std::min(1.0, kernel->independentPoints / double(compared));
 }
 
 void ObservationLikelihood::invalidate() {
