@@ -68,8 +68,25 @@ class Agglomeration {
     void sortPlaces();
     /// Merges later rows into row i; whether there were any.
     bool absorbLater(std::uint32_t i, double similarity);
-    /// Components left, other than row i, nearer to it than `limit`.
-    void findPairs(std::uint32_t i, double limit, Pairs& pairs) const;
+    /// Components left, other than row i, at places from `first` on and nearer than
+    /// `limit`.
+    void findPairs(std::uint32_t i, std::size_t first, double limit, Pairs& pairs) const;
+    /// Of all places.
+    void findPairs(std::uint32_t i, double limit, Pairs& pairs) const {
+        const double reach = reachOf(parts_[i].gaussian, limit);
+        const std::vector<double>& along = means_[axis_];
+        const auto first = std::lower_bound(along.begin(), along.end(),
+                                            parts_[i].gaussian.mean[axis_] - reach);
+        findPairs(i, static_cast<std::size_t>(first - along.begin()), limit, pairs);
+    }
+    /// How far along the axis the bound lets a component nearer than `limit` be [m].
+    double reachOf(const Gaussian<D>& g, double limit) const {
+        const double own = g.covariance(axis_, axis_) + kLeastVariance;
+        return std::sqrt(twice(limit) * std::max(widest_, own));
+    }
+    static double twice(double limit) {
+        return 2 * limit * (1 + 1e-9);  // with a margin for rounding
+    }
     bool passesBound(const Gaussian<D>& g, std::size_t place, double perTwice) const;
     double distance(const Part& a, const Part& b) const {
         return std::min(klDivergence(a.whitened, a.gaussian.covariance, b.whitened),
@@ -89,7 +106,7 @@ class Agglomeration {
     std::vector<std::uint32_t> grown_;
     std::vector<bool> hasGrown_;
 
-    std::vector<std::uint32_t> place_;  ///< rows sorted along the axis
+    std::vector<std::uint32_t> place_;                      ///< rows sorted along the axis
     std::array<std::vector<double>, D> means_, variances_;  ///< by place
     double widest_ = 0.0;                                   ///< largest variance [m^2]
 };
@@ -134,7 +151,16 @@ void Agglomeration<D>::sortPlaces() {
 template <int D>
 void Agglomeration<D>::widenHorizon(double similarity) {
     while (horizon_ < similarity) horizon_ *= 2;
-    for (const std::uint32_t i : alive_) findPairs(i, horizon_, pairs_[i]);
+    for (const std::uint32_t i : alive_) pairs_[i].clear();
+    Pairs later;
+    for (std::size_t k = 0; k < place_.size(); ++k) {
+        const std::uint32_t i = place_[k];
+        findPairs(i, k + 1, horizon_, later);
+        for (const Pair& pair : later) {
+            pairs_[i].push_back(pair);
+            pairs_[pair.row].push_back({i, pair.distance});
+        }
+    }
     findLeastDistance();
 }
 
@@ -153,20 +179,17 @@ bool Agglomeration<D>::passesBound(const Gaussian<D>& g, std::size_t place,
 }
 
 template <int D>
-void Agglomeration<D>::findPairs(std::uint32_t i, double limit, Pairs& pairs) const {
+void Agglomeration<D>::findPairs(std::uint32_t i, std::size_t first, double limit,
+                                 Pairs& pairs) const {
     pairs.clear();
     const Part& part = parts_[i];
-    const Gaussian<D>& g = part.gaussian;
-    const double twice = 2 * limit * (1 + 1e-9);  // with a margin for rounding
-    const double own = g.covariance(axis_, axis_) + kLeastVariance;
-    const double reach = std::sqrt(twice * std::max(widest_, own));
     const std::vector<double>& along = means_[axis_];
-    auto place = static_cast<std::size_t>(
-        std::lower_bound(along.begin(), along.end(), g.mean[axis_] - reach) -
-        along.begin());
-    for (; place < along.size() && along[place] <= g.mean[axis_] + reach; ++place) {
+    const double last = part.gaussian.mean[axis_] + reachOf(part.gaussian, limit);
+    const double perTwice = 1 / twice(limit);
+    for (std::size_t place = first; place < along.size() && along[place] <= last; ++place) {
         const std::uint32_t j = place_[place];
-        if (j == i || takenOver_[j] != j || !passesBound(g, place, 1 / twice)) continue;
+        if (j == i || takenOver_[j] != j || !passesBound(part.gaussian, place, perTwice))
+            continue;
         const double apart = distance(part, parts_[j]);
         if (apart < limit) pairs.push_back({j, apart});
     }

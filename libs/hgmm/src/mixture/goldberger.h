@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "hgmm/divergence.h"
@@ -57,9 +58,9 @@ class GoldbergerSearch {
     }
 
     int axis_ = 0;
-    double twiceWidest_ = 0;      ///< twice the largest variance along the axis [m^2]
+    double twiceWidest_ = 0;  ///< twice the largest variance along the axis [m^2]
     double heaviest_ = -std::numeric_limits<double>::infinity();  ///< largest logWeight
-    std::vector<Entry> entries_;  ///< sorted along the axis
+    std::vector<Entry> entries_;                                  ///< sorted along the axis
 };
 
 /// The axis along which the means spread most.
@@ -116,9 +117,15 @@ void GoldbergerSearch<D>::add(const Gaussian<D>& g, const WhitenedGaussian<D>& w
 
 template <int D>
 void GoldbergerSearch<D>::sortEntries() {
-    std::stable_sort(
-        entries_.begin(), entries_.end(),
-        [this](const Entry& a, const Entry& b) { return a.mean[axis_] < b.mean[axis_]; });
+    std::vector<std::pair<double, std::uint32_t>> along;
+    along.reserve(entries_.size());
+    for (const Entry& entry : entries_)
+        along.emplace_back(entry.mean[axis_], static_cast<std::uint32_t>(along.size()));
+    std::sort(along.begin(), along.end());
+    std::vector<Entry> sorted;
+    sorted.reserve(entries_.size());
+    for (const auto& place : along) sorted.push_back(entries_[place.second]);
+    entries_.swap(sorted);
 }
 
 template <int D>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/dual.h"
 #include "base/lattice_walk.h"
@@ -45,22 +46,42 @@ void forEachCell(const LatticeCell& block, Coverage::Word word, Visitor&& visit)
     }
 }
 
-/// The cells of a block that a segment in it passes. Its ends may be out by rounding.
-Coverage::Word cellsPassed(const LatticeCell& block, const Eigen::Vector3d& from,
-                           const Eigen::Vector3d& to) {
-    const std::int32_t low[3] = {block.x << Coverage::kBlockShift,
-                                 block.y << Coverage::kBlockShift,
-                                 block.z << Coverage::kBlockShift};
-    Coverage::Word passed = 0;
-    walkCells(from, to, powerOfTwo(-block.octave),
-              [&](const std::int32_t* c, double, double) {
-                  std::int32_t cell[3];
-                  for (int d = 0; d < 3; ++d)
-                      cell[d] = std::clamp(c[d], low[d], low[d] + kInBlock);
-                  passed |= bitOf(cell[0], cell[1], cell[2]);
-              });
-    return passed;
-}
+/// A segment in units of a lattice's cells, by the share t of its length.
+class CellSegment {
+ public:
+    CellSegment(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double perCell)
+        : from_(from * perCell),
+          along_((to - from) * perCell),
+          perUnit_(along_.cwiseInverse()) {}
+
+    /// The cells of a block that it passes between shares `in` and `out`, at which it
+    /// enters and leaves the block but for rounding.
+    Coverage::Word cellsPassed(const std::int32_t* block, double in, double out) const {
+        std::int32_t local[3], step[3];
+        double next[3];
+        for (int d = 0; d < 3; ++d) {
+            const double low = 4.0 * block[d], p = from_[d] + in * along_[d] - low;
+            local[d] = std::clamp(static_cast<std::int32_t>(p), 0, kInBlock);
+            step[d] = along_[d] < 0 ? -1 : 1;
+            const double border = low + local[d] + (step[d] > 0 ? 1 : 0);
+            next[d] = along_[d] == 0 ? kNever : (border - from_[d]) * perUnit_[d];
+        }
+        Coverage::Word passed = 0;
+        while (true) {
+            passed |= Coverage::Word{1}
+                      << static_cast<unsigned>(local[0] | local[1] << 2 | local[2] << 4);
+            int axis = next[1] < next[0] ? 1 : 0;
+            if (next[2] < next[axis]) axis = 2;
+            local[axis] += step[axis];
+            if (!(next[axis] < out) || (local[axis] & ~kInBlock) != 0) return passed;
+            next[axis] += std::abs(perUnit_[axis]);
+        }
+    }
+
+ private:
+    static constexpr double kNever = std::numeric_limits<double>::infinity();
+    Eigen::Vector3d from_, along_, perUnit_;
+};
 
 }  // namespace
 
@@ -80,16 +101,15 @@ void Coverage::mark(const LatticeCell& cell) {
 
 void Coverage::markSegment(int octave, const Eigen::Vector3d& from,
                            const Eigen::Vector3d& to) {
-    const Eigen::Vector3d along = to - from;
-    walkCells(from, to, powerOfTwo(-octave - kBlockShift),
-              [&](const std::int32_t* c, double in, double out) {
-                  const LatticeCell block{octave, c[0], c[1], c[2]};
-                  const Word known = word(block);
-                  if (known == kAllCells) return;
-                  const Word passed =
-                      cellsPassed(block, from + in * along, from + out * along);
-                  if ((passed & ~known) != 0) mark(block, passed);
-              });
+    const CellSegment segment(from, to, powerOfTwo(-octave));
+    const auto visit = [&](const std::int32_t* c, double in, double out) {
+        const LatticeCell block{octave, c[0], c[1], c[2]};
+        const Word known = word(block);
+        if (known == kAllCells) return;
+        const Word passed = segment.cellsPassed(c, in, out);
+        if ((passed & ~known) != 0) mark(block, passed);
+    };
+    walkCells(from, to, powerOfTwo(-octave - kBlockShift), visit);
 }
 
 Coverage::Rays::Rays(const CoverageParams& params, double raySpacing_rad,
