@@ -152,17 +152,22 @@ void Coverage::markRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& end
 }
 
 unsigned Coverage::corners(const LatticeCell& low) const {
-    LatticeCell block = blockOf(low);
-    Word cells = word(block);
+    const LatticeCell block = blockOf(low);
+    const std::int32_t local[3] = {low.x & kInBlock, low.y & kInBlock, low.z & kInBlock};
+    // Axes along which the upper cells lie in the next block.
+    unsigned crossed = 0;
+    for (int d = 0; d < 3; ++d)
+        if (local[d] == kInBlock) crossed |= 1U << d;
+    Word words[8];
     unsigned found = 0;
-    for (int k = 0; k < 8; ++k) {
-        const LatticeCell cell{low.octave, low.x + (k & 1), low.y + (k >> 1 & 1),
-                               low.z + (k >> 2)};
-        if (const LatticeCell own = blockOf(cell); !(own == block)) {
-            block = own;
-            cells = word(block);
-        }
-        if ((cells & bitOf(cell.x, cell.y, cell.z)) != 0) found |= 1U << k;
+    for (unsigned k = 0; k < 8; ++k) {
+        const unsigned own = k & crossed;
+        const auto x = std::int32_t(k & 1), y = std::int32_t(k >> 1 & 1),
+                   z = std::int32_t(k >> 2);
+        if (own == k)
+            words[k] = word({block.octave, block.x + x, block.y + y, block.z + z});
+        if ((words[own] & bitOf(local[0] + x, local[1] + y, local[2] + z)) != 0)
+            found |= 1U << k;
     }
     return found;
 }
