@@ -125,6 +125,37 @@ std::size_t decayMissed(ComponentStore& store, const QueryCache& cache,
     return rows.size();
 }
 
+/// What a scan did to the surfaces.
+struct Learned {
+    std::vector<RayBundle> bundles;        ///< its hits, by component
+    std::vector<std::uint32_t> hit;        ///< rows that it gave support to, rising
+    std::vector<std::uint32_t> oversized;  ///< rows that lost support
+};
+
+/// Thesis 3.3.3 to 3.3.5: known samples update components, novel ones become new ones.
+Learned learnSurfaces(const Mixture<3>& samples, const NoveltySplit& split,
+                      const ThicknessLimit& limit, const MapParams& params,
+                      ComponentStore& store, const ComponentIndex& index) {
+    Learned learned;
+    KnownUpdate update = updateKnown(store.surfaces(), index, samples, split);
+    learned.hit = update.changed;
+    learned.bundles = updateComponents(store, std::move(update), limit.sensorOrigin);
+    for (const SupportDecay& decay :
+         downweightOversized(store.surfaces(), index, samples, split)) {
+        store.setSupport(decay.component, decay.support);
+        learned.oversized.push_back(decay.component);
+    }
+    if (split.novel.empty()) return learned;
+    const std::size_t before = store.size();
+    const std::vector<RayBundle> added =
+        addComponents(store, fitNovel(samples, split, limit, params), limit.sensorOrigin,
+                      params.carving.minSupport);
+    learned.bundles.insert(learned.bundles.end(), added.begin(), added.end());
+    for (std::size_t i = before; i < store.size(); ++i)
+        learned.hit.push_back(static_cast<std::uint32_t>(i));
+    return learned;
+}
+
 /// The method on one screen: thesis 3.3.3 to 4.2, and carving.
 void insertSamples(const ScanSamples& scan, const Pose& T_local_sensor, Model& model,
                    QueryCache& cache, InsertReport& report) {
@@ -141,40 +172,30 @@ void insertSamples(const ScanSamples& scan, const Pose& T_local_sensor, Model& m
     const SensorGeometry geometry{store.viewDirections(), limit};
     const NoveltySplit split =
         splitByNovelty(samples, cache.index(), params.novelty, &geometry);
-    KnownUpdate update = updateKnown(store.surfaces(), cache.index(), samples, split);
-    std::vector<std::uint32_t> hit = update.changed;
-    std::vector<RayBundle> bundles =
-        updateComponents(store, std::move(update), sensorOrigin);
-    report.componentsUpdated = bundles.size();
-
-    std::vector<std::uint32_t> weakened;
-    for (const SupportDecay& decay :
-         downweightOversized(store.surfaces(), cache.index(), samples, split)) {
-        store.setSupport(decay.component, decay.support);
-        weakened.push_back(decay.component);
-    }
-    report.componentsOversized = weakened.size();
-
-    const std::size_t before = store.size();
-    if (!split.novel.empty()) {
-        const std::vector<RayBundle> added =
-            addComponents(store, fitNovel(samples, split, limit, params), sensorOrigin,
-                          params.carving.minSupport);
-        bundles.insert(bundles.end(), added.begin(), added.end());
-        report.componentsAdded = added.size();
-    }
     report.novelSamples = split.novel.size();
-    cache.apply(store.takeChanges());
+    const std::size_t before = store.size();
+    Learned learned;
+    runBoth(
+        [&] {
+            learned = learnSurfaces(samples, split, limit, params, store, cache.index());
+            cache.apply(store.takeChanges());
+        },
+        [&] {
+            markRays(samples, scan, T_local_sensor, params.occupancy.coverage,
+                     model.coverage);
+        });
+    report.componentsAdded = store.size() - before;
+    report.componentsUpdated = learned.bundles.size() - report.componentsAdded;
+    report.componentsOversized = learned.oversized.size();
 
-    markRays(samples, scan, T_local_sensor, params.occupancy.coverage, model.coverage);
     const std::vector<std::uint32_t> updatedFree =
-        model.freeSpace.insert(bundles, sensorOrigin, cache.pyramid(),
+        model.freeSpace.insert(learned.bundles, sensorOrigin, cache.pyramid(),
                                params.occupancy.band, params.occupancy.freeSpace);
-    for (std::size_t i = before; i < store.size(); ++i)
-        hit.push_back(static_cast<std::uint32_t>(i));
     const Mixture<3> ends = endsOfRays(samples, scan, T_local_sensor);
-    report.componentsMissed = decayMissed(
-        store, cache, hit, {ends, limit, scan.raySpacing_rad}, params.carving, weakened);
+    std::vector<std::uint32_t> weakened = std::move(learned.oversized);
+    report.componentsMissed =
+        decayMissed(store, cache, learned.hit, {ends, limit, scan.raySpacing_rad},
+                    params.carving, weakened);
     for (const std::uint32_t i :
          seenThrough(store.surfaces(), ends, sensorOrigin, cache.grid(), params.carving)) {
         const double trusted = std::min(store.surfaces().support[i], kTrustedHits);
