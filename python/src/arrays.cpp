@@ -16,8 +16,8 @@ std::string expectedShape(py::ssize_t rows, py::ssize_t columns) {
     return "(" + n + ", " + std::to_string(columns) + ")";
 }
 
-bool isAligned(const py::array& array) {
-    return reinterpret_cast<std::uintptr_t>(array.data()) % alignof(double) == 0;
+bool isAligned(const py::array& array, std::size_t alignment) {
+    return reinterpret_cast<std::uintptr_t>(array.data()) % alignment == 0;
 }
 
 }  // namespace
@@ -26,7 +26,8 @@ std::string shapeText(const py::array& array) {
     return py::str(array.attr("shape")).cast<std::string>();
 }
 
-py::array_t<double> numbers(const py::handle& argument, const std::string& name,
+template <typename Number>
+py::array_t<Number> numbers(const py::handle& argument, const std::string& name,
                             py::ssize_t rows, py::ssize_t columns) {
     const auto array = py::array::ensure(argument);
     if (!array) {
@@ -44,25 +45,30 @@ py::array_t<double> numbers(const py::handle& argument, const std::string& name,
     if (const char kind = array.dtype().kind(); kind != 'f' && kind != 'i' && kind != 'u')
         throw py::type_error(name + ": expected numbers, got dtype " +
                              py::str(array.dtype()).cast<std::string>());
-    if (!fits) return py::array_t<double>(std::vector<py::ssize_t>{0, columns});
+    if (!fits) return py::array_t<Number>(std::vector<py::ssize_t>{0, columns});
     const auto converted =
-        py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(array);
+        py::array_t<Number, py::array::c_style | py::array::forcecast>::ensure(array);
     if (!converted) throw py::error_already_set();
-    if (isAligned(converted)) return converted;
-    py::array_t<double> copy(
+    if (isAligned(converted, alignof(Number))) return converted;
+    py::array_t<Number> copy(
         std::vector<py::ssize_t>(converted.shape(), converted.shape() + converted.ndim()));
     std::memcpy(copy.mutable_data(), converted.data(),
                 static_cast<std::size_t>(converted.nbytes()));
     return copy;
 }
 
+template py::array_t<double> numbers(const py::handle&, const std::string&, py::ssize_t,
+                                     py::ssize_t);
+template py::array_t<float> numbers(const py::handle&, const std::string&, py::ssize_t,
+                                    py::ssize_t);
+
 Eigen::Vector3d vector3(const py::handle& argument, const std::string& name) {
-    return Eigen::Map<const Eigen::Vector3d>(numbers(argument, name, 3, 0).data());
+    return Eigen::Map<const Eigen::Vector3d>(numbers<double>(argument, name, 3, 0).data());
 }
 
 Pose poseFrom(const py::object& argument, const std::string& name) {
     if (argument.is_none()) return {};
-    const py::array_t<double> array = numbers(argument, name, 4, 4);
+    const py::array_t<double> array = numbers<double>(argument, name, 4, 4);
     const Eigen::Map<const RowMajor> T(array.data(), 4, 4);
     if (!T.allFinite())
         throw py::value_error(name + ": the pose, of shape (4, 4), is not finite");

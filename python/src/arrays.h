@@ -18,10 +18,11 @@ namespace py = pybind11;
 /// Text of a shape, as Python writes it: "(10, 3)".
 std::string shapeText(const py::array& array);
 
-/// An array of float64 in C order; the same memory if it is that already. `rows` and
-/// `columns` of the shape: any number if -1; one dimension only if `columns` is 0. Throws
-/// TypeError for what is not an array of real numbers, ValueError for another shape.
-py::array_t<double> numbers(const py::handle& argument, const std::string& name,
+/// An array in C order, of float or double; the same memory if it is that already. `rows`
+/// and `columns` of the shape: any number if -1; one dimension only if `columns` is 0.
+/// Throws TypeError for what is not an array of real numbers, ValueError for another shape.
+template <typename Number>
+py::array_t<Number> numbers(const py::handle& argument, const std::string& name,
                             py::ssize_t rows, py::ssize_t columns);
 
 /// Points [m] that live as long as the array.
@@ -29,7 +30,7 @@ class Points {
  public:
     /// From shape (N, 3). Throws as numbers().
     Points(const py::handle& argument, const std::string& name)
-        : array_(numbers(argument, name, -1, 3)) {}
+        : array_(numbers<double>(argument, name, -1, 3)) {}
     std::size_t size() const { return static_cast<std::size_t>(array_.shape(0)); }
     const Eigen::Vector3d* data() const {
         static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));

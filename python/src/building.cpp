@@ -23,7 +23,7 @@ type, and ValueError for a value out of range.)";
 constexpr const char* kInsertDoc = R"(Adds a scan: thesis chapter 3, and 4 for free space.
 
 points_sensor: shape (N, 3), in the sensor frame [m]; rays start at its origin. Points that
-    are not finite are dropped and counted. The map keeps float32.
+    are not finite are dropped and counted. float32 in C order is read where it is.
 T_map_sensor: shape (4, 4), the pose of the sensor in the map [m]; None for the identity.
 channels: name -> shape (N,), what else was measured at each point; colours and intensities in
     [0, 1]. Those that the option modalities does not name are ignored.
@@ -50,18 +50,16 @@ low, high: shape (3,), corners in the map frame [m]. Free space and modalities s
 
 Returns how many were removed. Raises ValueError for a box that is empty or not finite.)";
 
-std::vector<float> floats(const py::array_t<double>& array) {
+std::vector<float> floats(const py::array_t<float>& array) {
     return {array.data(), array.data() + array.size()};
 }
 
 void setPoints(const py::object& argument, Scan& scan) {
-    const py::array_t<double> points = numbers(argument, "points_sensor", -1, 3);
+    const auto points = numbers<float>(argument, "points_sensor", -1, 3);
     const auto n = static_cast<std::size_t>(points.shape(0));
-    const double* p = points.data();
+    const float* p = points.data();
     scan.reserve(n);
-    for (std::size_t i = 0; i < n; ++i, p += 3)
-        scan.pushBack(static_cast<float>(p[0]), static_cast<float>(p[1]),
-                      static_cast<float>(p[2]));
+    for (std::size_t i = 0; i < n; ++i, p += 3) scan.pushBack(p[0], p[1], p[2]);
 }
 
 void setClearedRays(const py::object& argument, Scan& scan) {
@@ -90,8 +88,8 @@ py::object insert(SharedMap& map, const py::object& points_sensor,
                                  py::repr(name).cast<std::string>());
         const auto text = name.cast<std::string>();
         scan.channels.push_back(
-            {text, floats(numbers(values, "channels['" + text + "']",
-                                  static_cast<py::ssize_t>(scan.size()), 0))});
+            {text, floats(numbers<float>(values, "channels['" + text + "']",
+                                         static_cast<py::ssize_t>(scan.size()), 0))});
     }
     setClearedRays(clearedRays_sensor, scan);
     scan.T_map_sensor = poseFrom(T_map_sensor, "T_map_sensor");

@@ -41,6 +41,15 @@ def test_other_dtypes_are_converted(room):
         assert same(room.occupancy(points), room.occupancy(points.astype(float)))
 
 
+def test_float32_points_give_the_same_map_as_float64():
+    points = scan_room(pose_at(0, 0, 0))
+    maps = [hgmm.Map(), hgmm.Map(), hgmm.Map()]
+    for it, scan in zip(maps, (points, points.astype(numpy.float32),
+                               points.astype(numpy.float32, order="F"))):
+        it.insert(scan)
+    assert maps[0] == maps[1] == maps[2]
+
+
 def test_answers_outlive_the_map(places):
     room = map_of_room()
     occupied = room.occupancy(places).occupied
@@ -75,14 +84,18 @@ POINTS = numpy.zeros((4, 3))
 
 
 @pytest.mark.parametrize("call, words", [
-    (lambda m: m.insert(numpy.zeros((4, 2))), r"points_sensor: expected shape \(N, 3\), got \(4, 2\)"),
+    (lambda m: m.insert(numpy.zeros((4, 2))),
+     r"points_sensor: expected shape \(N, 3\), got \(4, 2\)"),
     (lambda m: m.insert(numpy.zeros(3)), r"points_sensor: .* got \(3,\)"),
     (lambda m: m.insert(POINTS, numpy.eye(3)), r"T_map_sensor: .*\(4, 4\), got \(3, 3\)"),
-    (lambda m: m.insert(POINTS, numpy.full((4, 4), numpy.nan)), r"T_map_sensor: .*\(4, 4\).*not finite"),
+    (lambda m: m.insert(POINTS, numpy.full((4, 4), numpy.nan)),
+     r"T_map_sensor: .*\(4, 4\).*not finite"),
     (lambda m: m.insert(POINTS, numpy.diag([1, 1, -1, 1])), "T_map_sensor: .* not orthonormal"),
     (lambda m: m.insert(POINTS, numpy.diag([1, 1, 1, 2])), "T_map_sensor: .* last row"),
-    (lambda m: m.insert(POINTS, channels={"r": numpy.zeros(3)}), r"channels\['r'\]: .*\(4,\), got \(3,\)"),
-    (lambda m: m.insert(POINTS, cleared_rays_sensor=[[1, 0]]), r"cleared_rays_sensor: .* got \(1, 2\)"),
+    (lambda m: m.insert(POINTS, channels={"r": numpy.zeros(3)}),
+     r"channels\['r'\]: .*\(4,\), got \(3,\)"),
+    (lambda m: m.insert(POINTS, cleared_rays_sensor=[[1, 0]]),
+     r"cleared_rays_sensor: .* got \(1, 2\)"),
     (lambda m: m.insert(POINTS, cleared_rays_sensor=[[1, 0, numpy.inf]]), "ray 0 is not finite"),
     (lambda m: m.occupancy(numpy.zeros((2, 4))), r"points_map: .* got \(2, 4\)"),
     (lambda m: m.modality("heat", POINTS), "heat"),
@@ -106,7 +119,8 @@ def test_bad_input_is_named_and_changes_nothing(call, words):
     assert room == before
 
 
-@pytest.mark.parametrize("points", ["text", [["a", "b", "c"]], [[1j, 0, 0]], [[None] * 3], [[True] * 3]])
+@pytest.mark.parametrize("points", ["text", [["a", "b", "c"]], [[1j, 0, 0]], [[None] * 3],
+                                    [[True] * 3]])
 def test_what_is_no_number_is_refused(room, points):
     with pytest.raises((TypeError, ValueError), match="points_map: expected"):
         room.occupancy(points)

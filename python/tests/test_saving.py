@@ -120,7 +120,8 @@ def test_files_that_cannot_be_opened(tmp_path, room):
     assert [f.name for f in tmp_path.iterdir()] == ["taken"]
 
 
-@pytest.mark.parametrize("data", [b"", b"HGMM", b"x" * 1000, gzip.compress(b""), gzip.compress(b"x" * 99)])
+@pytest.mark.parametrize("data", [b"", b"HGMM", b"x" * 1000, gzip.compress(b""),
+                                  gzip.compress(b"x" * 99)])
 def test_foreign_bytes(data):
     with pytest.raises(hgmm.FormatError):
         hgmm.Map.from_bytes(data)
