@@ -149,7 +149,7 @@ std::vector<std::uint8_t> wrapped(const Map& map, Encoding encoding) {
     // default was another in files without it.
     out.number<std::uint8_t>(1);
     out.text<std::uint8_t>("independentPoints");
-    out.number(100.0);
+    out.number(0.0);
     out.number<std::uint8_t>(0);
     out.number<std::uint16_t>(0);  // render options, numbers and texts: none
     const std::vector<std::uint8_t> buffer = map.save(encoding);

@@ -2,6 +2,8 @@
 import copy
 import gzip
 import pickle
+import re
+import struct
 
 import numpy
 import pytest
@@ -63,6 +65,16 @@ def test_the_tools_read_what_is_written_here(tmp_path, map_tool, room):
     for i, line in enumerate(numbers):
         assert line[4:7] == [f"{a[i]:.4f}" for a in occupancy[:3]]
         assert line[9] == (f"{warm.mean[i]:.6g}" if warm.known[i] else "-")
+
+
+def test_files_have_the_default_of_the_option_whose_absence_means_another(tmp_path, room, golden):
+    page = (golden.parents[2] / "docs/options.md").read_text()
+    default = float(re.search(r"^\| `independentPoints` \| ([0-9.]+) \|", page, re.M).group(1))
+    room.save(tmp_path / "room.hgmm")
+    content = gzip.decompress((tmp_path / "room.hgmm").read_bytes())
+    name = b"\x11independentPoints"
+    begin = content.index(name) + len(name)
+    assert struct.unpack("<d", content[begin:begin + 8]) == (default,)
 
 
 def test_what_the_tools_write_is_read_here(tmp_path, map_tool, golden):

@@ -227,15 +227,31 @@ Coverage randomCoverage(std::uint64_t seed) {
 TEST(CoverageCodec, RoundTripIsExact) {
     for (const Coverage& coverage :
          {Coverage(), coneOfRays(6.0, 0.02), randomCoverage(1), randomCoverage(2)}) {
-        std::vector<std::uint8_t> bytes;
-        encodeCoverage(coverage, bytes);
-        const std::size_t size = bytes.size();
-        bytes.insert(bytes.end(), 10, 0xAA);
-        Coverage decoded;
-        EXPECT_EQ(decodeCoverage(bytes.data(), bytes.size(), decoded), size);
-        EXPECT_TRUE(decoded == coverage);
-        EXPECT_EQ(decoded.octaves(), coverage.octaves());
+        for (const auto encode : {encodeCoverage, writeCoverage}) {
+            std::vector<std::uint8_t> bytes;
+            encode(coverage, bytes);
+            const std::size_t size = bytes.size();
+            bytes.insert(bytes.end(), 10, 0xAA);
+            Coverage decoded;
+            EXPECT_EQ(decodeCoverage(bytes.data(), bytes.size(), decoded), size);
+            EXPECT_TRUE(decoded == coverage);
+            EXPECT_EQ(decoded.octaves(), coverage.octaves());
+        }
     }
+}
+
+TEST(CoverageCodec, EqualCoveragesArePlainlyWrittenAlike) {
+    const Coverage coverage = randomCoverage(3);
+    Coverage otherOrder;
+    std::vector<std::pair<LatticeCell, Coverage::Word>> blocks;
+    coverage.forEachBlock(
+        [&](const LatticeCell& b, Coverage::Word word) { blocks.emplace_back(b, word); });
+    for (auto b = blocks.rbegin(); b != blocks.rend(); ++b)
+        otherOrder.mark(b->first, b->second);
+    std::vector<std::uint8_t> bytes, others;
+    writeCoverage(coverage, bytes);
+    writeCoverage(otherOrder, others);
+    EXPECT_EQ(bytes, others);
 }
 
 TEST(CoverageCodec, TakesAThirdOfTheBits) {
@@ -246,8 +262,6 @@ TEST(CoverageCodec, TakesAThirdOfTheBits) {
 }
 
 TEST(CoverageCodec, DamageIsAnErrorOrAnotherCoverage) {
-    std::vector<std::uint8_t> bytes;
-    encodeCoverage(coneOfRays(3.0, 0.05), bytes);
     const auto decode = [](const std::vector<std::uint8_t>& data) {
         Coverage decoded;
         try {
@@ -256,13 +270,17 @@ TEST(CoverageCodec, DamageIsAnErrorOrAnotherCoverage) {
         } catch (const std::out_of_range&) {
         }
     };
-    std::mt19937_64 engine(7);
-    for (int trial = 0; trial < 300; ++trial) {
-        std::vector<std::uint8_t> damaged = bytes;
-        damaged[engine() % damaged.size()] ^= 1U << engine() % 8;
-        decode(damaged);
-        damaged.resize(engine() % damaged.size());
-        decode(damaged);
+    for (const auto encode : {encodeCoverage, writeCoverage}) {
+        std::vector<std::uint8_t> bytes;
+        encode(coneOfRays(3.0, 0.05), bytes);
+        std::mt19937_64 engine(7);
+        for (int trial = 0; trial < 300; ++trial) {
+            std::vector<std::uint8_t> damaged = bytes;
+            damaged[engine() % damaged.size()] ^= 1U << engine() % 8;
+            decode(damaged);
+            damaged.resize(engine() % damaged.size());
+            decode(damaged);
+        }
     }
 }
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "hgmm/divergence.h"
+#include "mixture/agglomeration.h"
 #include "mixture/knee.h"
-#include "mixture/merge_sweep.h"
 #include "planted_mixture.h"
 
 namespace hgmm::test {
@@ -58,11 +58,18 @@ Mixture<D> crowd(std::uint64_t seed, std::size_t size) {
 }
 
 template <int D>
+Mixture<D> afterPass(const Mixture<D>& mixture, double similarity) {
+    Agglomeration<D> levels(mixture);
+    levels.pass(similarity);
+    return levels.mixture();
+}
+
+template <int D>
 void expectPassIsBruteForce() {
     for (std::uint64_t seed = 1; seed <= 6; ++seed)
         for (const double similarity : {0.3, 0.9, 3.0, 20.0}) {
             const Mixture<D> mixture = crowd<D>(seed, 200);
-            const Mixture<D> merged = MergeSweep<D>(mixture, similarity).run();
+            const Mixture<D> merged = afterPass(mixture, similarity);
             EXPECT_TRUE(merged == bruteForceMerge(mixture, similarity))
                 << "D " << D << " seed " << seed << " similarity " << similarity;
             if (similarity >= 3) {
@@ -77,6 +84,41 @@ TEST(MergePass, EqualsTheDoubleLoop) {
     expectPassIsBruteForce<4>();
     const Mixture<3> mixture = crowd<3>(1, 200);
     EXPECT_TRUE(mergePass(mixture, 0.9) == bruteForceMerge(mixture, 0.9));
+}
+
+/// Whether rows tell which component holds each of the first mixture, by its mean.
+template <int D>
+void expectParentsHold(const Agglomeration<D>& levels, const Mixture<D>& first) {
+    const Mixture<D> left = levels.mixture();
+    const std::vector<std::uint32_t> parents = levels.parents();
+    std::vector<double> support(left.size(), 0.0);
+    for (std::size_t i = 0; i < first.size(); ++i) support[parents[i]] += first.support[i];
+    for (std::size_t k = 0; k < left.size(); ++k)
+        EXPECT_NEAR(support[k] / left.support[k], 1.0, 1e-5);
+}
+
+template <int D>
+void expectPassesAreBruteForce() {
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        const Mixture<D> mixture = crowd<D>(seed, 200);
+        Mixture<D> expected = mixture;
+        Agglomeration<D> levels(mixture);
+        for (double similarity = 0.1; similarity < 400; similarity *= 1.3) {
+            const Mixture<D> before = expected;
+            expected = bruteForceMerge(expected, similarity);
+            EXPECT_EQ(levels.pass(similarity), expected.size() < before.size());
+            ASSERT_TRUE(levels.mixture() == expected)
+                << "D " << D << " seed " << seed << " similarity " << similarity;
+            expectParentsHold(levels, mixture);
+        }
+        EXPECT_LT(levels.size(), mixture.size() / 4);
+    }
+}
+
+TEST(Agglomeration, EqualsTheDoubleLoopPassAfterPass) {
+    expectPassesAreBruteForce<2>();
+    expectPassesAreBruteForce<3>();
+    expectPassesAreBruteForce<4>();
 }
 
 TEST(MergePass, KeepsWeightMeanAndSecondMoments) {

@@ -17,6 +17,8 @@ CHGMMOccupancyMap roomMap() {
     map.insertObservation(*observations::laser(), CPose3D(0, 0, 0.2, 0, 0, 0));
     map.insertObservation(*observations::laser(), CPose3D(0, 0, 0.2, M_PI, 0, 0));
     map.likelihoodOptions.kernelWidth_m = 0.05;
+    map.likelihoodOptions.outlierRatio = 0.05;
+    map.likelihoodOptions.maxPoints = 1000;
     map.likelihoodOptions.independentPoints = hgmm::mrpt_bridge::kMaxPoints;
     return map;
 }
@@ -91,7 +93,7 @@ TEST(Likelihood, UsesAtMostMaxPointsInRange) {
     const double corners = map.computeObservationLikelihood(*scan, far) / perPoint;
     EXPECT_GT(corners, 5);
     EXPECT_LT(corners, 100);
-    map.likelihoodOptions.outlierRatio = 0;
+    map.likelihoodOptions.outlierRatio = 1;
     EXPECT_THROW(map.computeObservationLikelihood(*scan, far), std::exception);
 }
 

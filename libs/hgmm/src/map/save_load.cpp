@@ -36,7 +36,8 @@ namespace {
 // version 3 goes on:
 //   modalities (putModalities); maps that model none were written as version 2
 // version 4 has, behind free space:
-//   u64 bytes, then encodeCoverage, whatever the encoding
+//   u64 bytes, then exact: writeCoverage (encodeCoverage is read, too), compact:
+//   encodeCoverage
 // and ends with modalities, whether it models any or not.
 // An exact mixture is that of putMixture.
 constexpr char kMagic[4] = {'H', 'G', 'M', 'M'};
@@ -251,9 +252,10 @@ std::vector<std::uint8_t> Map::save(Encoding encoding) const {
     out.put(model.origin.data(), 3);
     putComponents(out, model, encoding);
     putSection(out, [&](auto& bytes) {
-        encodeCoverage(
-            encoding == Encoding::compact ? model.coverage.pruned() : model.coverage,
-            bytes);
+        if (encoding == Encoding::compact)
+            encodeCoverage(model.coverage.pruned(), bytes);
+        else
+            writeCoverage(model.coverage, bytes);
     });
     putModalities(out, model.params, model.modalities, encoding);
 

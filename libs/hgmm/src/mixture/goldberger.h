@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "hgmm/divergence.h"
@@ -19,12 +20,15 @@ template <int D>
 class GoldbergerSearch {
  public:
     /// @param q not empty
-    /// @param only if given, the components of q to search: those that are true
-    explicit GoldbergerSearch(const Mixture<D>& q, const std::vector<bool>* only = nullptr);
+    explicit GoldbergerSearch(const Mixture<D>& q);
+    /// Over some rows of a mixture that is being reduced (Agglomeration).
+    /// @param rows of components that are left
+    template <typename Levels>
+    GoldbergerSearch(const Levels& q, const std::vector<std::uint32_t>& rows);
 
     struct Match {
         double cost = std::numeric_limits<double>::infinity();  ///< [nat]
-        std::uint32_t component = 0;                            ///< of q
+        std::uint32_t component = 0;                            ///< of q, or its row
     };
 
     /// Replaces `best` by the best component if that is better.
@@ -41,6 +45,9 @@ class GoldbergerSearch {
         WhitenedGaussian<D> whitened;
     };
 
+    void add(const Gaussian<D>& g, const WhitenedGaussian<D>& whitened, double weight,
+             std::uint32_t component);
+    void sortEntries();
     void tryEntry(const Entry& entry, const Gaussian<D>& f,
                   const WhitenedGaussian<D>& whitened, double logWeight, Match& best) const;
     /// No entry this far away along the axis can do better.
@@ -51,9 +58,9 @@ class GoldbergerSearch {
     }
 
     int axis_ = 0;
-    double twiceWidest_ = 0;      ///< twice the largest variance along the axis [m^2]
-    double heaviest_ = 0;         ///< largest logWeight
-    std::vector<Entry> entries_;  ///< sorted along the axis
+    double twiceWidest_ = 0;  ///< twice the largest variance along the axis [m^2]
+    double heaviest_ = -std::numeric_limits<double>::infinity();  ///< largest logWeight
+    std::vector<Entry> entries_;                                  ///< sorted along the axis
 };
 
 /// The axis along which the means spread most.
@@ -73,25 +80,52 @@ int widestAxis(const Mixture<D>& mixture) {
 }
 
 template <int D>
-GoldbergerSearch<D>::GoldbergerSearch(const Mixture<D>& q, const std::vector<bool>* only)
-    : axis_(widestAxis(q)) {
+GoldbergerSearch<D>::GoldbergerSearch(const Mixture<D>& q) : axis_(widestAxis(q)) {
     const double total = q.totalSupport();
     entries_.reserve(q.size());
-    heaviest_ = -std::numeric_limits<double>::infinity();
     for (std::size_t j = 0; j < q.size(); ++j) {
-        if (only && !(*only)[j]) continue;
         const Gaussian<D> g = q[j];
-        // Factoring may raise pivots to 1e-12.
-        entries_.push_back({g.mean,
-                            2.0 * (g.covariance.diagonal().array() + 1e-12).matrix(),
-                            std::log(q.weight(j, total)), static_cast<std::uint32_t>(j),
-                            WhitenedGaussian<D>(g)});
-        twiceWidest_ = std::max(twiceWidest_, entries_.back().twiceVariance[axis_]);
-        heaviest_ = std::max(heaviest_, entries_.back().logWeight);
+        add(g, WhitenedGaussian<D>(g), q.weight(j, total), static_cast<std::uint32_t>(j));
     }
-    std::stable_sort(
-        entries_.begin(), entries_.end(),
-        [this](const Entry& a, const Entry& b) { return a.mean[axis_] < b.mean[axis_]; });
+    sortEntries();
+}
+
+template <int D>
+template <typename Levels>
+GoldbergerSearch<D>::GoldbergerSearch(const Levels& q,
+                                      const std::vector<std::uint32_t>& rows)
+    : axis_(q.axis()) {
+    const double total = q.totalSupport();
+    entries_.reserve(rows.size());
+    for (const std::uint32_t row : rows) {
+        const auto& part = q.part(row);
+        add(part.gaussian, part.whitened, part.gaussian.support / total, row);
+    }
+    sortEntries();
+}
+
+template <int D>
+void GoldbergerSearch<D>::add(const Gaussian<D>& g, const WhitenedGaussian<D>& whitened,
+                              double weight, std::uint32_t component) {
+    // Factoring may raise pivots to 1e-12.
+    const typename Gaussian<D>::Vector twiceVariance =
+        2.0 * (g.covariance.diagonal().array() + 1e-12).matrix();
+    entries_.push_back({g.mean, twiceVariance, std::log(weight), component, whitened});
+    twiceWidest_ = std::max(twiceWidest_, twiceVariance[axis_]);
+    heaviest_ = std::max(heaviest_, entries_.back().logWeight);
+}
+
+template <int D>
+void GoldbergerSearch<D>::sortEntries() {
+    std::vector<std::pair<double, std::uint32_t>> along;
+    along.reserve(entries_.size());
+    for (const Entry& entry : entries_)
+        along.emplace_back(entry.mean[axis_], static_cast<std::uint32_t>(along.size()));
+    std::sort(along.begin(), along.end());
+    std::vector<Entry> sorted;
+    sorted.reserve(entries_.size());
+    for (const auto& place : along) sorted.push_back(entries_[place.second]);
+    entries_.swap(sorted);
 }
 
 template <int D>

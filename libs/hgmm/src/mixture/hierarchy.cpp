@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 
 #include "hgmm/params.h"
+#include "mixture/agglomeration.h"
 #include "mixture/goldberger.h"
 #include "mixture/knee.h"
-#include "mixture/merge_sweep.h"
 
 namespace hgmm {
 
@@ -33,17 +32,18 @@ class ReferenceDivergence {
         }
     }
 
-    /// @param level made from the level before by `sweep`
-    double to(const Mixture<D>& level, const MergeSweep<D>& sweep) {
-        const GoldbergerSearch<D> all(level), changed(level, &sweep.merged());
+    /// @param levels after a pass that merged some
+    double to(const Agglomeration<D>& levels) {
+        const GoldbergerSearch<D> all(levels, levels.rows()),
+            grown(levels, levels.grown());
         double sum = 0;
         for (Term& t : terms_) {
-            t.best.component = sweep.parentOf()[t.best.component];
-            if (sweep.merged()[t.best.component]) {
+            t.best.component = levels.heirOf(t.best.component);
+            if (levels.hasGrown(t.best.component)) {
                 t.best.cost = std::numeric_limits<double>::infinity();
                 all.improve(t.gaussian, t.whitened, t.logWeight, t.best);
             } else {
-                changed.improve(t.gaussian, t.whitened, t.logWeight, t.best);
+                grown.improve(t.gaussian, t.whitened, t.logWeight, t.best);
             }
             sum += t.weight * t.best.cost;
         }
@@ -55,7 +55,7 @@ class ReferenceDivergence {
         Gaussian<D> gaussian;
         WhitenedGaussian<D> whitened;
         double weight, logWeight;
-        typename GoldbergerSearch<D>::Match best;  ///< in the latest level
+        typename GoldbergerSearch<D>::Match best;  ///< a row of the latest level
     };
     std::vector<Term> terms_;
 };
@@ -75,27 +75,25 @@ bool kneeIsKnown(const std::vector<DivergencePoint>& curve) {
 
 template <int D>
 Mixture<D> mergePass(const Mixture<D>& mixture, double similarity) {
-    return MergeSweep<D>(mixture, similarity).run();
+    Agglomeration<D> levels(mixture);
+    levels.pass(similarity);
+    return levels.mixture();
 }
 
 template <int D>
 Mixture<D> mergeToSize(const Mixture<D>& mixture, std::size_t size,
                        const HierarchyParams& params,
                        std::vector<std::uint32_t>* parentOf) {
-    Mixture<D> level = mixture;
-    std::vector<std::uint32_t> all(mixture.size());
-    std::iota(all.begin(), all.end(), 0U);
+    Agglomeration<D> levels(mixture);
     double similarity = params.similarityStart;
-    while (level.size() > size && similarity < HierarchyParams::kLargestSimilarity) {
-        MergeSweep<D> sweep(level, similarity);
-        level = sweep.run();
-        for (std::uint32_t& parent : all) parent = sweep.parentOf()[parent];
+    while (levels.size() > size && similarity < HierarchyParams::kLargestSimilarity) {
+        levels.pass(similarity);
         const double next = raised(similarity, params.similarityStep);
         if (next == similarity) break;
         similarity = next;
     }
-    if (parentOf != nullptr) *parentOf = std::move(all);
-    return level;
+    if (parentOf != nullptr) *parentOf = levels.parents();
+    return levels.mixture();
 }
 
 template <int D>
@@ -107,14 +105,14 @@ Hierarchy<D> generateHierarchy(const Mixture<D>& reference, const HierarchyParam
     levels.push_back(reference);
     out.curve.push_back({reference.size(), 0.0, 0.0});
 
+    Agglomeration<D> agglomeration(reference);
     double similarity = params.similarityStart;
     const auto pass = [&] {
-        MergeSweep<D> sweep(levels.back(), similarity);
-        Mixture<D> merged = sweep.run();
-        const bool smaller = merged.size() < levels.back().size();
+        const bool smaller = agglomeration.pass(similarity);
         if (smaller) {
-            out.curve.push_back({merged.size(), divergence.to(merged, sweep), similarity});
-            levels.push_back(std::move(merged));
+            const double kl = divergence.to(agglomeration);
+            out.curve.push_back({agglomeration.size(), kl, similarity});
+            levels.push_back(agglomeration.mixture());
         }
         const bool mayMerge = smaller || params.similarityStep > 0;
         similarity = raised(similarity, params.similarityStep);

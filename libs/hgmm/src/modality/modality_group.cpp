@@ -80,7 +80,7 @@ std::vector<LinearRegion> regionsOf(const std::vector<std::uint32_t>& own,
     return regions;
 }
 
-/// How much two components differ, as MergeSweep has it, for the channel where they do
+/// How much two components differ, as Agglomeration has it, for the channel where they do
 /// most.
 double difference(const ChannelGaussian& a, const ChannelGaussian& b, int channels) {
     double most = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/dual.h"
 #include "base/lattice_walk.h"
@@ -12,6 +13,7 @@ namespace {
 
 constexpr std::int32_t kInBlock = (1 << Coverage::kBlockShift) - 1;
 constexpr unsigned kAllCorners = 255;
+constexpr auto kAllCells = ~Coverage::Word{0};
 
 /// Cells are at least this many spacings of rays wide, so that a sparse sensor leaves no
 /// gaps, but for its sake no wider than the gap that is bridged: things hide in wider ones.
@@ -44,6 +46,43 @@ void forEachCell(const LatticeCell& block, Coverage::Word word, Visitor&& visit)
     }
 }
 
+/// A segment in units of a lattice's cells, by the share t of its length.
+class CellSegment {
+ public:
+    CellSegment(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double perCell)
+        : from_(from * perCell),
+          along_((to - from) * perCell),
+          perUnit_(along_.cwiseInverse()) {}
+
+    /// The cells of a block that it passes between shares `in` and `out`, at which it
+    /// enters and leaves the block but for rounding.
+    Coverage::Word cellsPassed(const std::int32_t* block, double in, double out) const {
+        std::int32_t local[3], step[3];
+        double next[3];
+        for (int d = 0; d < 3; ++d) {
+            const double low = 4.0 * block[d], p = from_[d] + in * along_[d] - low;
+            local[d] = std::clamp(static_cast<std::int32_t>(p), 0, kInBlock);
+            step[d] = along_[d] < 0 ? -1 : 1;
+            const double border = low + local[d] + (step[d] > 0 ? 1 : 0);
+            next[d] = along_[d] == 0 ? kNever : (border - from_[d]) * perUnit_[d];
+        }
+        Coverage::Word passed = 0;
+        while (true) {
+            passed |= Coverage::Word{1}
+                      << static_cast<unsigned>(local[0] | local[1] << 2 | local[2] << 4);
+            int axis = next[1] < next[0] ? 1 : 0;
+            if (next[2] < next[axis]) axis = 2;
+            local[axis] += step[axis];
+            if (!(next[axis] < out) || (local[axis] & ~kInBlock) != 0) return passed;
+            next[axis] += std::abs(perUnit_[axis]);
+        }
+    }
+
+ private:
+    static constexpr double kNever = std::numeric_limits<double>::infinity();
+    Eigen::Vector3d from_, along_, perUnit_;
+};
+
 }  // namespace
 
 void Coverage::mark(const LatticeCell& block, Word cells) {
@@ -62,21 +101,15 @@ void Coverage::mark(const LatticeCell& cell) {
 
 void Coverage::markSegment(int octave, const Eigen::Vector3d& from,
                            const Eigen::Vector3d& to) {
-    LatticeCell block{octave, 0, 0, 0};
-    Word passed = 0;
-    const auto finish = [&] {
-        if ((passed & ~word(block)) != 0) mark(block, passed);
+    const CellSegment segment(from, to, powerOfTwo(-octave));
+    const auto visit = [&](const std::int32_t* c, double in, double out) {
+        const LatticeCell block{octave, c[0], c[1], c[2]};
+        const Word known = word(block);
+        if (known == kAllCells) return;
+        const Word passed = segment.cellsPassed(c, in, out);
+        if ((passed & ~known) != 0) mark(block, passed);
     };
-    walkCells(from, to, powerOfTwo(-octave), [&](const std::int32_t* c, double, double) {
-        const LatticeCell own = blockOf({octave, c[0], c[1], c[2]});
-        if (!(own == block)) {
-            if (passed != 0) finish();
-            block = own;
-            passed = 0;
-        }
-        passed |= bitOf(c[0], c[1], c[2]);
-    });
-    finish();
+    walkCells(from, to, powerOfTwo(-octave - kBlockShift), visit);
 }
 
 Coverage::Rays::Rays(const CoverageParams& params, double raySpacing_rad,
@@ -119,17 +152,22 @@ void Coverage::markRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& end
 }
 
 unsigned Coverage::corners(const LatticeCell& low) const {
-    LatticeCell block = blockOf(low);
-    Word cells = word(block);
+    const LatticeCell block = blockOf(low);
+    const std::int32_t local[3] = {low.x & kInBlock, low.y & kInBlock, low.z & kInBlock};
+    // Axes along which the upper cells lie in the next block.
+    unsigned crossed = 0;
+    for (int d = 0; d < 3; ++d)
+        if (local[d] == kInBlock) crossed |= 1U << d;
+    Word words[8];
     unsigned found = 0;
-    for (int k = 0; k < 8; ++k) {
-        const LatticeCell cell{low.octave, low.x + (k & 1), low.y + (k >> 1 & 1),
-                               low.z + (k >> 2)};
-        if (const LatticeCell own = blockOf(cell); !(own == block)) {
-            block = own;
-            cells = word(block);
-        }
-        if ((cells & bitOf(cell.x, cell.y, cell.z)) != 0) found |= 1U << k;
+    for (unsigned k = 0; k < 8; ++k) {
+        const unsigned own = k & crossed;
+        const auto x = std::int32_t(k & 1), y = std::int32_t(k >> 1 & 1),
+                   z = std::int32_t(k >> 2);
+        if (own == k)
+            words[k] = word({block.octave, block.x + x, block.y + y, block.z + z});
+        if ((words[own] & bitOf(local[0] + x, local[1] + y, local[2] + z)) != 0)
+            found |= 1U << k;
     }
     return found;
 }

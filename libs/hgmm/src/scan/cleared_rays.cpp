@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/simd.h"
 #include "scan/voxel_table.h"
 
 namespace hgmm {
@@ -14,12 +13,11 @@ namespace {
 class ThinnedRays {
  public:
     ThinnedRays(const FilterParams& params, std::size_t rays)
-        : octaveAt_(params), leaves_(rays) {}
+        : keys_(params), leaves_(rays) {}
 
     void add(const ClearedRay& ray) {
         const Eigen::Vector3f end = ray.length_m * ray.direction;
-        const std::uint64_t key = leafKey(octaveAt_(ray.length_m * ray.length_m),
-                                          Float4{end.x(), end.y(), end.z(), 0.F});
+        const std::uint64_t key = keys_.atAnyRange(end.x(), end.y(), end.z());
         const std::size_t known = leaves_.leaves().size();
         leaves_.find(key, end.x(), end.y(), end.z());
         if (leaves_.leaves().size() > known) rays_.push_back(ray);
@@ -29,7 +27,7 @@ class ThinnedRays {
  private:
     struct NoSums {};
 
-    LeafOctave octaveAt_;
+    LeafKeys keys_;
     VoxelTable<NoSums> leaves_;
     std::vector<ClearedRay> rays_;
 };

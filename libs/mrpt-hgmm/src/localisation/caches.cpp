@@ -29,6 +29,10 @@ const ::hgmm::mrpt_bridge::ObservationLikelihood& CHGMMOccupancyMap::Caches::lik
     return impl_->likelihood;
 }
 
+::hgmm::mrpt_bridge::ObservationLikelihood& CHGMMOccupancyMap::Caches::likelihood() {
+    return impl_->likelihood;
+}
+
 const ::hgmm::mrpt_bridge::SurfaceMatching& CHGMMOccupancyMap::Caches::matching() const {
     return impl_->matching;
 }

@@ -1,6 +1,7 @@
 #include "localisation/observation_likelihood.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
@@ -71,7 +72,20 @@ auto& recentPoints() {
     return recent;
 }
 
+std::uint64_t nextNumber() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+}
+
 }  // namespace
+
+ObservationLikelihood::ObservationLikelihood()
+    : family_(AskedPoses::ofProcess().newFamily()), number_(nextNumber()) {}
+
+ObservationLikelihood::ObservationLikelihood(const ObservationLikelihood& o)
+    : number_(nextNumber()) {
+    *this = o;
+}
 
 ObservationLikelihood& ObservationLikelihood::operator=(const ObservationLikelihood& o) {
     if (this == &o) return *this;
@@ -79,27 +93,35 @@ ObservationLikelihood& ObservationLikelihood::operator=(const ObservationLikelih
     surfaces_ = o.surfaces_;
     stale_ = o.stale_;
     isOwner_ = o.isOwner_ = false;
+    family_ = o.family_;
     return *this;
 }
 
 double ObservationLikelihood::operator()(const Map& map, const LikelihoodParams& params,
                                          const mrpt::obs::CObservation& observation,
                                          const mrpt::poses::CPose3D& T_map_robot) const {
-    if (map.empty()) return 0;
+    const std::uint64_t digest = digestOf(observation, Digested::sample);
     const auto points = recentPoints().get(
-        observation, params, [&] { return pointsToCompare(observation, params); });
+        observation, digest, params, [&] { return pointsToCompare(observation, params); });
     if (!points || points->empty()) return 0;
-    const auto surfaces = surfacesOf(map, params);
 
     const Pose T = toPose(T_map_robot);
     const Eigen::Vector3d t_local = T.t - map.origin();
+    auto kernel = fixedKernel(params);
+    if (!kernel)
+        kernel = AskedPoses::ofProcess().kernelAt(family_, number_, observation, digest,
+                                                  t_local, T.R);
+    if (map.empty()) return 0;
+    const auto surfaces = surfacesOf(map, *kernel);
+    const auto compared =
+        static_cast<std::size_t>(std::ceil(double(points->size()) * kernel->shareOfPoints));
     LogOfProduct product;
-    for (const Eigen::Vector3d& p : *points) {
+    for (std::size_t i = 0; i < compared; ++i) {
+        const Eigen::Vector3d& p = (*points)[i * points->size() / compared];
         const Eigen::Vector3f local = (T.R * p + t_local).cast<float>();
         product.multiply(surfaces->likelihood.probability(local.x(), local.y(), local.z()));
     }
-    return product.log() *
-           std::min(1.0, double(params.independentPoints) / double(points->size()));
+    return product.log() * std::min(1.0, kernel->independentPoints / double(compared));
 }
 
 void ObservationLikelihood::invalidate() {
@@ -107,18 +129,22 @@ void ObservationLikelihood::invalidate() {
     stale_ = true;
 }
 
+void ObservationLikelihood::forgetPoses() {
+    family_ = AskedPoses::ofProcess().newFamily();
+}
+
 void ObservationLikelihood::forgetObservations() {
     recentPoints().forget();
 }
 
 std::shared_ptr<const ObservationLikelihood::Surfaces> ObservationLikelihood::surfacesOf(
-    const Map& map, const LikelihoodParams& params) const {
+    const Map& map, const LikelihoodKernel& kernel) const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!surfaces_ || surfaces_->kernelWidth_m != params.kernelWidth_m ||
-        surfaces_->outlierRatio != params.outlierRatio) {
+    if (!surfaces_ || surfaces_->kernelWidth_m != kernel.kernelWidth_m ||
+        surfaces_->outlierRatio != kernel.outlierRatio) {
         surfaces_ = std::make_shared<Surfaces>(Surfaces{
-            SurfaceLikelihood(map.mixture(), params.kernelWidth_m, params.outlierRatio),
-            params.kernelWidth_m, params.outlierRatio});
+            SurfaceLikelihood(map.mixture(), kernel.kernelWidth_m, kernel.outlierRatio),
+            kernel.kernelWidth_m, kernel.outlierRatio});
         isOwner_ = true;
     } else if (stale_) {
         if (!isOwner_) surfaces_ = std::make_shared<Surfaces>(*surfaces_);

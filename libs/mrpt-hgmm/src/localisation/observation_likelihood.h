@@ -11,12 +11,15 @@
 #include "hgmm/likelihood.h"
 #include "hgmm/map.h"
 #include "hgmm/mrpt_bridge/likelihood_params.h"
+#include "localisation/asked_poses.h"
 
 namespace hgmm::mrpt_bridge {
 
 /// Likelihood of observations given a pose, for particle filters: sums SurfaceLikelihood
 /// over a spread subset of the scan's points. The more points, the nearer is its maximum to
-/// the pose; its height is that of independentPoints.
+/// the pose; its height is that of independentPoints. Unless options fix the kernel, it
+/// follows from the poses that maps of the same family were asked about at the observation
+/// before.
 ///
 /// Keeps what calls have in common: the map's surfaces, brought up to date where the map
 /// changed since invalidate(), and, for all maps of the process, the points of the last few
@@ -24,8 +27,8 @@ namespace hgmm::mrpt_bridge {
 /// share the surfaces.
 class ObservationLikelihood {
  public:
-    ObservationLikelihood() = default;
-    ObservationLikelihood(const ObservationLikelihood& o) { *this = o; }
+    ObservationLikelihood();
+    ObservationLikelihood(const ObservationLikelihood& o);
     ObservationLikelihood& operator=(const ObservationLikelihood& o);
 
     /// Log-likelihood [nat], finite, <= 0, and 0 for an empty map and for observations of
@@ -36,6 +39,10 @@ class ObservationLikelihood {
 
     /// To be called when the map has changed.
     void invalidate();
+    /// Poses asked about until now do not count for this map any more.
+    void forgetPoses();
+    const MapFamily& family() const { return family_; }
+    void setFamily(const MapFamily& family) { family_ = family; }
     /// Frees the points of observations, those that other maps asked for included.
     static void forgetObservations();
 
@@ -45,7 +52,10 @@ class ObservationLikelihood {
         double kernelWidth_m, outlierRatio;
     };
     std::shared_ptr<const Surfaces> surfacesOf(const Map& map,
-                                               const LikelihoodParams& params) const;
+                                               const LikelihoodKernel& kernel) const;
+
+    MapFamily family_;
+    std::uint64_t number_;  ///< of this object in the process
 
     mutable std::mutex mutex_;
     mutable std::shared_ptr<Surfaces> surfaces_;

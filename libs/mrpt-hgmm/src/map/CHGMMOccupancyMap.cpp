@@ -66,6 +66,11 @@ void CHGMMOccupancyMap::loadFromFile(const std::string& fileName) {
     likelihoodOptions = loaded.likelihoodOptions;
     renderOptions = loaded.renderOptions;
     genericMapParams = loaded.genericMapParams;
+    forgetPoses();
+}
+
+void CHGMMOccupancyMap::forgetPoses() {
+    caches_.likelihood().forgetPoses();
 }
 
 std::string CHGMMOccupancyMap::asString() const {
@@ -106,15 +111,22 @@ uint8_t CHGMMOccupancyMap::serializeGetVersion() const {
 }
 
 void CHGMMOccupancyMap::serializeTo(mrpt::serialization::CArchive& out) const {
-    bridge::writeMap(out, *this, encoding_);
+    const std::uint64_t digest = bridge::writeMap(out, *this, encoding_);
+    bridge::WrittenMaps::ofProcess().remember(digest, caches_.likelihood().family());
 }
 
 void CHGMMOccupancyMap::serializeFrom(mrpt::serialization::CArchive& in, uint8_t version) {
-    bridge::readMap(in, version, *this);
+    const std::uint64_t digest = bridge::readMap(in, version, *this);
+    const auto original = bridge::WrittenMaps::ofProcess().familyOf(digest);
+    if (original)
+        caches_.likelihood().setFamily(*original);
+    else
+        caches_.likelihood().forgetPoses();
 }
 
 void CHGMMOccupancyMap::internal_clear() {
     model().clear();
+    forgetPoses();
 }
 
 bool CHGMMOccupancyMap::internal_insertObservation(

@@ -1,6 +1,7 @@
 #include "map/map_archive.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 
@@ -137,9 +138,20 @@ std::vector<std::uint8_t> readBuffer(CArchive& in) {
     return buffer;
 }
 
+std::uint64_t digestOf(const std::vector<std::uint8_t>& bytes) {
+    std::uint64_t digest = bytes.size();
+    for (std::size_t i = 0; i < bytes.size(); i += sizeof(std::uint64_t)) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, &bytes[i], std::min(sizeof(word), bytes.size() - i));
+        digest = (digest ^ word) * 0x9E3779B97F4A7C15ULL;
+        digest ^= digest >> 32U;
+    }
+    return digest;
+}
+
 }  // namespace
 
-void writeMap(CArchive& out, const CHGMMOccupancyMap& map, Encoding encoding) {
+std::uint64_t writeMap(CArchive& out, const CHGMMOccupancyMap& map, Encoding encoding) {
     out << flagsOf(map.genericMapParams);
     writeOptions(out, map.insertionOptions);
     writeOptions(out, map.likelihoodOptions);
@@ -147,9 +159,10 @@ void writeMap(CArchive& out, const CHGMMOccupancyMap& map, Encoding encoding) {
     const std::vector<std::uint8_t> buffer = map.model().save(encoding);
     out << static_cast<std::uint64_t>(buffer.size());
     out.WriteBuffer(buffer.data(), buffer.size());
+    return digestOf(buffer);
 }
 
-void readMap(CArchive& in, std::uint8_t version, CHGMMOccupancyMap& map) {
+std::uint64_t readMap(CArchive& in, std::uint8_t version, CHGMMOccupancyMap& map) {
     if (version > kArchiveVersion)
         fail("stored in version " + std::to_string(version) +
              ", newer than this program's " + std::to_string(kArchiveVersion));
@@ -168,6 +181,7 @@ void readMap(CArchive& in, std::uint8_t version, CHGMMOccupancyMap& map) {
     map.insertionOptions = insertion;
     map.likelihoodOptions = likelihood;
     map.renderOptions = render;
+    return digestOf(buffer);
 }
 
 }  // namespace hgmm::mrpt_bridge

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include "observation/observation_digest.h"
 
@@ -27,7 +28,14 @@ class RecentObservations {
     template <typename Make>
     std::shared_ptr<const Value> get(const mrpt::obs::CObservation& observation,
                                      const Params& params, Make&& make) {
-        const std::uint64_t digest = digestOf(observation, digested_);
+        return get(observation, digestOf(observation, digested_), params,
+                   std::forward<Make>(make));
+    }
+    /// For callers who know the digest.
+    template <typename Make>
+    std::shared_ptr<const Value> get(const mrpt::obs::CObservation& observation,
+                                     std::uint64_t digest, const Params& params,
+                                     Make&& make) {
         {
             const std::lock_guard<std::mutex> lock(mutex_);
             for (const Entry& entry : entries_)

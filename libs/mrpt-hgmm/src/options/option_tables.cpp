@@ -24,16 +24,21 @@ const OptionTable<LikelihoodParams>& LikelihoodParams::options() {
     static const OptionTable<P> table = {
         Option<P>("kernelWidth_m", &P::kernelWidth_m, "m", 0, 10,
                   "standard deviation added to all surfaces; wider finds the pose from "
-                  "farther away, narrower is more exact")
+                  "farther away, narrower is more exact; 0 here and in outlierRatio and "
+                  "independentPoints: all three follow the spread of the poses asked about "
+                  "before; one that is set fixes all, those left at 0 at 0.02 m, 0.05, 60")
             .basic()
             .formerly("softening_m"),
-        {"outlierRatio", &P::outlierRatio, "1", 1e-9, 1.0 - 1e-9,
-         "share of points that the map need not explain"},
+        Option<P>("outlierRatio", &P::outlierRatio, "1", 1e-9, 1.0 - 1e-9,
+                  "share of points that the map need not explain; 0: see kernelWidth_m")
+            .orZero(),
         Option<P>("maxPoints", &P::maxPoints, "count", 1, kMaxPoints,
                   "points of a scan that are compared with the map")
             .basic(),
-        {"independentPoints", &P::independentPoints, "count", 1, kMaxPoints,
-         "more points count together as this many: errors of neighbours are alike"},
+        Option<P>("independentPoints", &P::independentPoints, "count", 1, kMaxPoints,
+                  "more points count together as this many: errors of neighbours are "
+                  "alike; 0: see kernelWidth_m")
+            .orZero(),
         {"minRange_m", &P::minRange_m, "m", 0, 1e6, "nearer points are left out"},
         Option<P>("maxRange_m", &P::maxRange_m, "m", 0, 1e6, "farther points are left out")
             .notBelow("minRange_m")};

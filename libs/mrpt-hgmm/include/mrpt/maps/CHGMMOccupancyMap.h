@@ -103,6 +103,10 @@ class CHGMMOccupancyMap : public CMetricMap, public ::hgmm::mrpt_bridge::Nearest
     std::size_t forget(const mrpt::math::TBoundingBox& box_map);
     /// @}
 
+    /// To be called when a filter starts anew in the same map: the likelihood of the next
+    /// observation is the one for poses of unknown spread. Clearing and loading do this.
+    void forgetPoses();
+
     /// @name Files: the serialised object in a gz stream, usually `*.hgmm`
     /// @{
 
@@ -227,6 +231,7 @@ class CHGMMOccupancyMap : public CMetricMap, public ::hgmm::mrpt_bridge::Nearest
         /// To be called when the model has changed.
         void invalidate();
         const ::hgmm::mrpt_bridge::ObservationLikelihood& likelihood() const;
+        ::hgmm::mrpt_bridge::ObservationLikelihood& likelihood();
         const ::hgmm::mrpt_bridge::SurfaceMatching& matching() const;
 
      private:

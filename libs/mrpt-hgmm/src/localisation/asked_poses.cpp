@@ -1,0 +1,102 @@
+#include "localisation/asked_poses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <typeinfo>
+
+namespace hgmm::mrpt_bridge {
+
+AskedPoses& AskedPoses::ofProcess() {
+    static AskedPoses asked;
+    return asked;
+}
+
+MapFamily AskedPoses::newFamily() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return {std::this_thread::get_id(), observations_};
+}
+
+LikelihoodKernel AskedPoses::kernelAt(const MapFamily& family, std::uint64_t map,
+                                      const mrpt::obs::CObservation& observation,
+                                      std::uint64_t digest, const Eigen::Vector3d& t_local,
+                                      const Eigen::Matrix3d& R) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto known = std::find_if(asked_.begin(), asked_.end(), [&](const Asked& a) {
+        return a.used > 0 && a.digest == digest && a.family == family;
+    });
+    Asked& asked = known != asked_.end() ? *known : start(family, observation, digest);
+    asked.used = ++calls_;
+    asked.byMap[map].add(t_local, R);
+    return asked.kernel;
+}
+
+auto AskedPoses::start(const MapFamily& family, const mrpt::obs::CObservation& observation,
+                       std::uint64_t digest) -> Asked& {
+    Asked& oldest =
+        *std::min_element(asked_.begin(), asked_.end(),
+                          [](const Asked& a, const Asked& b) { return a.used < b.used; });
+    Asked asked;
+    asked.family = family;
+    asked.digest = digest;
+    asked.started = ++observations_;
+    asked.sensor = observation.sensorLabel;
+    asked.type = typeid(observation).hash_code();
+    asked.stamp = observation.timestamp;
+    const Asked* last = before(asked);
+    asked.kernel =
+        kernelFor(last ? std::optional<PoseSpread>(spreadOf(*last)) : std::nullopt);
+    oldest = std::move(asked);
+    return oldest;
+}
+
+/// The observation of the same sensor that comes before, in time, for a log may start
+/// anew; in the order of asking where there are no time stamps. Other sensors do not count:
+/// each particle may be asked about all sensors in turn.
+auto AskedPoses::before(const Asked& asked) const -> const Asked* {
+    const bool hasStamp = asked.stamp != INVALID_TIMESTAMP;
+    const Asked* last = nullptr;
+    for (const Asked& other : asked_) {
+        if (other.used == 0 || !(other.family == asked.family) ||
+            other.type != asked.type || other.sensor != asked.sensor ||
+            (hasStamp && other.stamp >= asked.stamp))
+            continue;
+        if (!last ||
+            std::tie(last->stamp, last->started) < std::tie(other.stamp, other.started))
+            last = &other;
+    }
+    return last;
+}
+
+PoseSpread AskedPoses::spreadOf(const Asked& asked) {
+    double poses = 0, squaredDistances = 0, squaredAngles = 0;
+    for (const auto& [map, sums] : asked.byMap) {
+        poses += double(sums.count());
+        squaredDistances += sums.squaredDistances();
+        squaredAngles += sums.squaredAngles();
+    }
+    if (poses == 0) return {};
+    return {std::sqrt(squaredDistances / poses), std::sqrt(squaredAngles / poses)};
+}
+
+WrittenMaps& WrittenMaps::ofProcess() {
+    static WrittenMaps written;
+    return written;
+}
+
+void WrittenMaps::remember(std::uint64_t digest, const MapFamily& family) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    written_[next_] = {std::this_thread::get_id(), digest, family};
+    next_ = (next_ + 1) % written_.size();
+}
+
+std::optional<MapFamily> WrittenMaps::familyOf(std::uint64_t digest) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (std::size_t k = 1; k <= written_.size(); ++k) {
+        const Written& w = written_[(next_ + written_.size() - k) % written_.size()];
+        if (w.digest == digest && w.thread == std::this_thread::get_id()) return w.family;
+    }
+    return std::nullopt;
+}
+
+}  // namespace hgmm::mrpt_bridge
