@@ -27,8 +27,21 @@ coreShuffled() {
     build-debug/tests/test-threads --gtest_brief=1 --gtest_shuffle
 }
 
+# A wheel of the Python package stands alone: it reads a saved map where nothing else of this tree is.
+wheel() {
+    local work
+    work=$(mktemp -d)
+    (cd python && /usr/bin/python3 -m build --wheel --no-isolation --outdir "$work")
+    /usr/bin/python3 -m zipfile -e "$work"/hgmm-*.whl "$work/package"
+    cp tests/mrpt-hgmm/data/map_model_v4.hgmm "$work"
+    (cd "$work" && ! ldd package/hgmm/_core*.so | grep -E 'not found|mrpt' &&
+        PYTHONPATH=package /usr/bin/python3 -c "import hgmm; print(hgmm.Map.load('map_model_v4.hgmm'))")
+    rm -rf "$work"
+}
+
 stage 'packages' scripts/install-deps.sh asan
 stage 'equality sees one ulp' scripts/equality.sh --self-test
 stage 'core in debug, shuffled' coreShuffled
 stage 'sanitized, everything' sanitizedRest
 stage 'races, 20 times' racesAgain
+stage 'wheel' wheel

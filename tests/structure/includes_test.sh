@@ -32,7 +32,7 @@ refused() {
 
 rm -rf "$copy"
 mkdir -p "$copy"
-cp -r "$root/libs" "$root/apps" "$copy/"
+cp -r "$root/libs" "$root/apps" "$root/python" "$copy/"
 
 "$root/scripts/check-includes.sh" "$copy" || fail "the sources as they are"
 refused libs/hgmm/include/hgmm/map.h fusion/novelty.h 'a public header includes fusion/novelty.h' \
@@ -51,6 +51,8 @@ refused libs/mrpt-hgmm/src/map/map_file.cpp hgmm/evaluation/roc.h 'libs/mrpt-hgm
     'the plugin that includes the evaluation library'
 refused libs/evaluation/src/figures/roc.cpp CLI/CLI.hpp 'libs/evaluation includes CLI/CLI.hpp' \
     'the evaluation library that includes what belongs to programs'
+refused python/src/saving.cpp mrpt/maps/CMetricMap.h 'python includes mrpt/' \
+    'the Python package that includes MRPT'
 
 mkdir "$copy/libs/hgmm/src/misc"
 if said=$("$root/scripts/check-includes.sh" "$copy" 2>&1); then
