@@ -79,7 +79,7 @@ TEST(OptionErrors, BadValueNamesSectionKeyAndValue) {
     EXPECT_NE(errorOf<Insertion>("levels = 99999999999").find("levels"), std::string::npos);
     EXPECT_NE(errorOf<Likelihood>("outlierRatio = 1").find("outlierRatio"),
               std::string::npos);
-    EXPECT_NE(errorOf<Likelihood>("maxPoints = 0").find("maxPoints"), std::string::npos);
+    EXPECT_NE(errorOf<Likelihood>("maxPoints = -1").find("maxPoints"), std::string::npos);
     EXPECT_EQ(errorOf<Likelihood>("minRange_m = 90"),
               "[s] minRange_m = 90: must be in [0, 80], as maxRange_m is 80");
     EXPECT_NE(errorOf<Render>("drawVoxels = maybe").find("drawVoxels"), std::string::npos);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <deque>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -193,10 +194,23 @@ void exploreScan(const Explorer& explorer, const RecordedScan& recorded,
     if (scan && scan->size() > 0) scans.push_back(explorer.explore(recorded, *scan));
 }
 
+/// A map whose likelihoods do not follow the spread of the poses that the study asks about,
+/// unless the configuration fixes them: they are those that a converged filter gets.
+std::shared_ptr<mrpt::maps::CHGMMOccupancyMap> mapToExplore(const Options& options) {
+    constexpr double kConvergedWidth_m = 0.02;
+    auto map = makeMap(options.config);
+    auto& likelihood = map->likelihoodOptions;
+    const bool followsSpread = likelihood.kernelWidth_m == 0 &&
+                               likelihood.outlierRatio == 0 &&
+                               likelihood.independentPoints == 0;
+    if (followsSpread) likelihood.kernelWidth_m = kConvergedWidth_m;
+    return map;
+}
+
 /// Looks at scan `index` in a map of the others.
 void exploreAmong(const std::deque<RecordedScan>& window, std::size_t index,
                   const Options& options, std::vector<ScanLandscape>& scans) {
-    const auto map = makeMap(options.config);
+    const auto map = mapToExplore(options);
     const RecordedScan* tested = nullptr;
     for (const RecordedScan& recorded : window) {
         if (recorded.index == index)
@@ -212,7 +226,7 @@ void exploreAmong(const std::deque<RecordedScan>& window, std::size_t index,
 
 void landscapeStudy(Recording& recording, const RecordingOptions& recordingOptions,
                     const Options& options) {
-    const Replayed replayed = replayScans(recording, makeMap(options.config), options);
+    const Replayed replayed = replayScans(recording, mapToExplore(options), options);
     if (replayed.map->model().empty())
         throw std::runtime_error(options.log + ": no scan was left to build a map from");
     const Explorer explorer(*replayed.map, options.split.seed);

@@ -34,8 +34,7 @@ class ReferenceDivergence {
 
     /// @param levels after a pass that merged some
     double to(const Agglomeration<D>& levels) {
-        const GoldbergerSearch<D> all(levels, levels.rows()),
-            grown(levels, levels.grown());
+        const GoldbergerSearch<D> all(levels, levels.rows()), grown(levels, levels.grown());
         double sum = 0;
         for (Term& t : terms_) {
             t.best.component = levels.heirOf(t.best.component);

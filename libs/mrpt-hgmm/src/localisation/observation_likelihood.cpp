@@ -1,5 +1,7 @@
 #include "localisation/observation_likelihood.h"
 
+#include <mrpt/obs/CObservation2DRangeScan.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -45,6 +47,13 @@ class LogOfProduct {
 
 using Points = std::vector<Eigen::Vector3d>;  // in the robot's frame
 
+/// How many points are compared at most.
+std::size_t countOf(const mrpt::obs::CObservation& observation,
+                    const LikelihoodParams& params) {
+    if (params.maxPoints > 0) return static_cast<std::size_t>(params.maxPoints);
+    return IS_CLASS(observation, mrpt::obs::CObservation2DRangeScan) ? 60 : 1000;
+}
+
 /// Null for observations that cannot be understood.
 std::shared_ptr<const Points> pointsToCompare(const mrpt::obs::CObservation& observation,
                                               const LikelihoodParams& params) {
@@ -58,7 +67,8 @@ std::shared_ptr<const Points> pointsToCompare(const mrpt::obs::CObservation& obs
         if (range >= params.minRange_m && range <= params.maxRange_m) inRange.push_back(i);
     }
     const Pose& T_robot_sensor = scan->T_map_sensor;
-    for (const std::size_t k : spreadIndices(inRange.size(), params.maxPoints)) {
+    for (const std::size_t k :
+         spreadIndices(inRange.size(), countOf(observation, params))) {
         const std::size_t i = inRange[k];
         points->push_back(T_robot_sensor.R *
                               Eigen::Vector3d(scan->x[i], scan->y[i], scan->z[i]) +

@@ -33,8 +33,10 @@ const OptionTable<LikelihoodParams>& LikelihoodParams::options() {
                   "share of points that the map need not explain; 0: see kernelWidth_m")
             .orZero(),
         Option<P>("maxPoints", &P::maxPoints, "count", 1, kMaxPoints,
-                  "points of a scan that are compared with the map")
-            .basic(),
+                  "points of a scan that are compared with the map; 0: 60 of a planar "
+                  "laser's, 1000 of other scans")
+            .basic()
+            .orZero(),
         Option<P>("independentPoints", &P::independentPoints, "count", 1, kMaxPoints,
                   "more points count together as this many: errors of neighbours are "
                   "alike; 0: see kernelWidth_m")

@@ -14,8 +14,9 @@ struct LikelihoodParams {
     double kernelWidth_m = 0;
     /// Share of points that the map need not explain, in (0, 1), or 0.
     double outlierRatio = 0;
-    /// Points compared, spread over the scan [count], 1 to kMaxPoints.
-    int maxPoints = 60;
+    /// Points compared, spread over the scan [count], 1 to kMaxPoints; 0: 60 of a planar
+    /// laser's, 1000 of other scans, whose poses have six dimensions.
+    int maxPoints = 0;
     /// More points count together as so many [count], 0 to kMaxPoints: the errors of
     /// neighbours are alike, and a particle filter must not be surer than the scan makes
     /// it.
