@@ -176,17 +176,6 @@ TEST(MetricsJson, WhatWasNotMeasuredIsLeftOut) {
     EXPECT_EQ(json["dataset"]["interrupted"], true);
 }
 
-class TextFile : public ScratchFolder {};
-
-TEST_F(TextFile, AppearsWholeOrNotAtAll) {
-    writeTextFile(path("a.json"), "first");
-    writeTextFile(path("a.json"), "second");
-    std::ifstream in(path("a.json"));
-    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "second");
-    EXPECT_FALSE(std::filesystem::exists(path("a.json.partial")));
-    EXPECT_THROW(writeTextFile(path("missing/a.json"), "x"), std::runtime_error);
-}
-
 TEST(SvgPlot, CurvesStayInsideTheFrameAndAxesAreLabelled) {
     const std::string svg = toSvg({"a title",
                                    "size [components]",
