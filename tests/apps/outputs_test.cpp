@@ -145,7 +145,9 @@ TEST_F(Outputs, OtherKindsAreReplacedOnlyIfAskedFor) {
     for (const auto& [program, arguments] : commands) {
         put("notes", "Dear diary,\n");
         expectRefused(program, arguments + path("notes"), "notes", "notes: is a text, and");
-        const Outcome forced = run(program, arguments + path("notes") + " --force");
+        std::string withForce = arguments + path("notes");
+        withForce.insert(withForce.find(' '), " --force");
+        const Outcome forced = run(program, withForce);
         EXPECT_EQ(forced.exitCode, 0) << forced.err;
         EXPECT_EQ(content("notes").find("diary"), std::string::npos) << arguments;
         const Outcome again = run(program, arguments + path("notes"));

@@ -2,12 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "hgmm/evaluation/occupancy_plots.h"
 #include "hgmm/evaluation/svg_plot.h"
-#include "scratch_folder.h"
 
 using namespace hgmm::evaluation;
 

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <optional>
 #include <set>
-#include <stdexcept>
 
 #include "files/output_target.h"
 #include "hgmm/mrpt_bridge/output_file.h"

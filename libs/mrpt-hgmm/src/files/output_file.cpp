@@ -9,10 +9,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <list>
 #include <set>
-#include <stdexcept>
 
 #include "files/output_target.h"
 #include "hgmm/mrpt_bridge/gzip_output.h"

@@ -3,7 +3,6 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <sstream>
-#include <stdexcept>
 
 #include "display/ellipsoids.h"
 #include "display/octomap_voxels.h"

@@ -1,5 +1,4 @@
 #pragma once
-#include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CSerializable.h>
 
 #include "hgmm/mrpt_bridge/output_file.h"
