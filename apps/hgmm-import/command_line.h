@@ -18,6 +18,7 @@ struct Arguments {
     std::string input, poses;
     std::vector<double> intrinsics, sensorPose, noise;
     bool worldFrame = false;
+    bool force = false;
     std::optional<double> aperture_deg;
     std::size_t step = 1;
     MatchOptions match;

@@ -31,6 +31,8 @@ void addOutputs(CLI::App& command, Arguments& arguments) {
             "Ground truth to write: TUM lines, the robot's pose at each observation")
         ->required()
         ->type_name("FILE.tum");
+    command.add_flag("--force", arguments.force,
+                     "Replace existing files of other kinds, too");
     command.add_option("--step", arguments.step, "Import every N-th scan only")
         ->type_name("N")
         ->capture_default_str()

@@ -42,10 +42,17 @@ std::optional<ImportedScan> tryLoad(const Source& source, std::size_t index,
     }
 }
 
+std::vector<std::string> pathsOf(const std::vector<std::filesystem::path>& files) {
+    std::vector<std::string> paths;
+    for (const auto& file : files) paths.push_back(file.string());
+    return paths;
+}
+
 }  // namespace
 
 void importRecording(Source& source, const RecordingOutputs& outputs, std::size_t step) {
     const SourceSummary& summary = source.summary();
+    mrpt_bridge::checkOutputs(outputs.files(), pathsOf(summary.files), outputs.replace);
     for (const auto& note : summary.notes) std::cerr << "note: " << note << "\n";
     const std::size_t total = (source.size() + step - 1) / step;
     ImportTally tally;

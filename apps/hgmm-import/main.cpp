@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <iostream>
 
 #include "command_line.h"
@@ -11,15 +10,6 @@ using namespace hgmm::importer;
 constexpr int kDone = 0;
 constexpr int kBadInput = 1;
 constexpr int kWrongUsage = 2;
-
-/// Throws CLI::ValidationError if two outputs would overwrite each other.
-void requireDistinct(const RecordingOutputs& outputs) {
-    const std::vector<std::string> names{outputs.rawlog, outputs.poses, outputs.simplemap,
-                                         outputs.cloud};
-    for (std::size_t i = 0; i < names.size(); ++i)
-        if (!names[i].empty() && std::count(names.begin(), names.end(), names[i]) > 1)
-            throw CLI::ValidationError("output", "two outputs have the same name");
-}
 
 }  // namespace
 
@@ -37,13 +27,16 @@ int main(int argc, char** argv) {
         {"rawlog", addRawlog(app, arguments)}};
     try {
         app.parse(argc, argv);
-        requireDistinct(arguments.outputs);
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? kDone : kWrongUsage;
     }
     if (!arguments.noise.empty())
         arguments.outputs.noise = {arguments.noise[0], arguments.noise[1]};
+    if (arguments.force) arguments.outputs.replace = hgmm::mrpt_bridge::Replace::anyKind;
     try {
+        hgmm::mrpt_bridge::checkOutputs(arguments.outputs.files(),
+                                        {arguments.input, arguments.poses},
+                                        arguments.outputs.replace);
         for (const auto& [name, makeSource] : formats)
             if (app.got_subcommand(name))
                 importRecording(*makeSource(), arguments.outputs, arguments.step);

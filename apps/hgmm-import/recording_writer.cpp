@@ -6,38 +6,21 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
-#include <mrpt/serialization/CArchive.h>
 
 #include <cmath>
-#include <fstream>
 
-#include "files.h"
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
 #include "mrpt_pose.h"
 
 namespace hgmm::importer {
+
+using mrpt_bridge::FileKind;
+using mrpt_bridge::Output;
+using mrpt_bridge::OutputFile;
+
 namespace {
 
 constexpr double kLatestStamp = 1e10;
-
-/// gzip ends with the uncompressed length modulo 2^32, which shows whether all of it got
-/// there: closing the stream reports no errors.
-bool gzipHolds(const std::string& file, std::uint64_t length) {
-    std::ifstream in(file, std::ios::binary);
-    in.seekg(-4, std::ios::end);
-    unsigned char tail[4] = {};
-    in.read(reinterpret_cast<char*>(tail), sizeof tail);
-    std::uint32_t stored = 0;
-    for (int i = 0; i < 4; ++i) stored |= std::uint32_t{tail[i]} << (8 * i);
-    return in && stored == static_cast<std::uint32_t>(length);
-}
-
-void save(const mrpt::maps::CSimpleMap& map, const std::string& name) {
-    OutputFile file(name);
-    if (!map.saveToFile(file.temporaryPath()))
-        failFile(name, "cannot be written; check folder and room on the disk");
-    file.commit();
-}
 
 mrpt::maps::CSimpleMap ofOneCloud(const mrpt::maps::CSimplePointsMap::Ptr& cloud) {
     cloud->mark_as_modified();
@@ -52,11 +35,22 @@ mrpt::maps::CSimpleMap ofOneCloud(const mrpt::maps::CSimplePointsMap::Ptr& cloud
 
 }  // namespace
 
+std::vector<Output> RecordingOutputs::files() const {
+    return {{rawlog, FileKind::rawlog},
+            {poses, FileKind::numbers},
+            {simplemap, FileKind::simpleMap},
+            {cloud, FileKind::simpleMap}};
+}
+
 RecordingWriter::RecordingWriter(const RecordingOutputs& outputs)
-    : outputs_(outputs), rawlogFile_(outputs.rawlog), generator_(outputs.seed) {
-    if (!rawlog_.open(rawlogFile_.temporaryPath()))
-        failFile(outputs.rawlog,
-                 "cannot be written; check that its folder exists and is writable");
+    : outputs_(outputs),
+      rawlogFile_(outputs.files()[0], outputs.replace),
+      posesFile_(outputs.files()[1], outputs.replace),
+      rawlog_(rawlogFile_),
+      generator_(outputs.seed) {
+    if (!outputs.simplemap.empty())
+        simplemapFile_.emplace(outputs.files()[2], outputs.replace);
+    if (!outputs.cloud.empty()) cloudFile_.emplace(outputs.files()[3], outputs.replace);
 }
 
 void RecordingWriter::add(const ImportedScan& scan) {
@@ -68,14 +62,10 @@ void RecordingWriter::add(const ImportedScan& scan) {
     scan.observation->timestamp = mrpt::Clock::fromDouble(stamp);
     auto frame = mrpt::obs::CSensoryFrame::Create();
     frame->insert(scan.observation);
-    try {
-        if (outputs_.actions)
-            writeActionPair(scan, frame);
-        else
-            mrpt::serialization::archiveFrom(rawlog_) << *scan.observation;
-    } catch (const std::exception&) {
-        failFile(outputs_.rawlog, "cannot be written; check that the disk has room");
-    }
+    if (outputs_.actions)
+        writeActionPair(scan, frame);
+    else
+        rawlog_.write(*scan.observation);
     trajectory_.push_back({stamp, scan.T_world_robot});
     if (!outputs_.cloud.empty()) addToCloud(scan);
     if (outputs_.simplemap.empty()) return;
@@ -113,20 +103,25 @@ void RecordingWriter::writeActionPair(const ImportedScan& scan,
     action->timestamp = scan.observation->timestamp;
     mrpt::obs::CActionCollection actions;
     actions.insert(*action);
-    auto archive = mrpt::serialization::archiveFrom(rawlog_);
-    archive << actions << *frame;
+    rawlog_.write(actions);
+    rawlog_.write(*frame);
 }
 
 void RecordingWriter::commit() {
-    const std::uint64_t length = rawlog_.getPosition();
+    std::vector<OutputFile*> files{&posesFile_};
+    const std::string poses = evaluation::tumText(trajectory_);
+    posesFile_.write(poses.data(), poses.size());
+    if (simplemapFile_) {
+        mrpt_bridge::writeObject(*simplemapFile_, simplemap_);
+        files.push_back(&*simplemapFile_);
+    }
+    if (cloudFile_) {
+        mrpt_bridge::writeObject(*cloudFile_, ofOneCloud(cloud_));
+        files.push_back(&*cloudFile_);
+    }
     rawlog_.close();
-    if (!gzipHolds(rawlogFile_.temporaryPath(), length))
-        failFile(outputs_.rawlog,
-                 "could not be written whole; check that the disk has room");
-    if (!outputs_.simplemap.empty()) save(simplemap_, outputs_.simplemap);
-    if (!outputs_.cloud.empty()) save(ofOneCloud(cloud_), outputs_.cloud);
-    evaluation::writeTumTrajectory(outputs_.poses, trajectory_);
-    rawlogFile_.commit();
+    files.push_back(&rawlogFile_);
+    OutputFile::commitAll(files);
 }
 
 }  // namespace hgmm::importer

@@ -1,6 +1,5 @@
 #pragma once
 #include <hgmm/evaluation/trajectory.h>
-#include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 
@@ -9,9 +8,11 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <vector>
 
+#include "hgmm/mrpt_bridge/gzip_output.h"
+#include "hgmm/mrpt_bridge/output_file.h"
 #include "motion_action.h"
-#include "output_file.h"
 #include "sources/source.h"
 
 namespace hgmm::importer {
@@ -29,6 +30,10 @@ struct RecordingOutputs {
     OdometryNoise noise;   ///< of these movements
     double turnErrorPerMetre_deg = 1;  ///< deviation that 2D movements state [deg/m]
     std::uint64_t seed = 1;
+    mrpt_bridge::Replace replace = mrpt_bridge::Replace::sameKind;
+
+    /// What checkOutputs looks at.
+    std::vector<mrpt_bridge::Output> files() const;
 };
 
 /// Writes scans, in the order of time, to a rawlog, a pose file and, if asked for, a simple
@@ -36,7 +41,7 @@ struct RecordingOutputs {
 /// it.
 class RecordingWriter {
  public:
-    /// Throws std::runtime_error if the rawlog cannot be opened.
+    /// Throws std::runtime_error if a file cannot be written.
     explicit RecordingWriter(const RecordingOutputs& outputs);
 
     /// Stamps the observation and writes it. Throws std::runtime_error if the time is not
@@ -45,7 +50,7 @@ class RecordingWriter {
     /// is full.
     void add(const ImportedScan& scan);
 
-    /// Completes all files; without this none of them appears.
+    /// Puts all files in their places, or none; without this none of them appears.
     void commit();
 
  private:
@@ -54,8 +59,9 @@ class RecordingWriter {
                          const mrpt::obs::CSensoryFrame::Ptr& frame);
 
     RecordingOutputs outputs_;
-    OutputFile rawlogFile_;
-    mrpt::io::CFileGZOutputStream rawlog_;
+    mrpt_bridge::OutputFile rawlogFile_, posesFile_;
+    std::optional<mrpt_bridge::OutputFile> simplemapFile_, cloudFile_;
+    mrpt_bridge::GzipOutput rawlog_;
     evaluation::Trajectory trajectory_;
     mrpt::maps::CSimpleMap simplemap_;
     mrpt::maps::CSimplePointsMap::Ptr cloud_ = mrpt::maps::CSimplePointsMap::Create();

@@ -14,12 +14,17 @@ namespace maptool {
 /// map.
 void info(const std::string& mapFile);
 
+/// `hgmm-map check`: prints for each file whether a map in it may go to a robot. Returns
+/// whether all may.
+bool check(const std::vector<std::string>& mapFiles);
+
 struct SampleOptions {
     std::string mapFile, output;
     std::size_t points = 0;
     std::uint64_t seed = 1;
     std::size_t level = 0;
     bool colour = false;  ///< as the map's modalities look like
+    bool force = false;   ///< replace a file of another kind
 };
 
 /// `hgmm-map sample`: draws points from a level into a PLY file.
@@ -52,6 +57,7 @@ struct MergeOptions {
     std::vector<double> pose;  ///< of the other map in the first: x, y, z [m], yaw, pitch,
                                ///< roll [deg]; empty: in the same frame
     bool refine = false;       ///< by registration, from that pose
+    bool force = false;        ///< replace a file of another kind
 };
 
 /// `hgmm-map merge`: writes the first map with what the other knows, and prints where the
@@ -61,6 +67,7 @@ void merge(const MergeOptions& options);
 struct ForgetOptions {
     std::string mapFile, output;
     std::vector<double> box;  ///< x0, y0, z0, x1, y1, z1 [m], in the map frame
+    bool force = false;       ///< replace a file of another kind
 };
 
 /// `hgmm-map forget`: writes the map without its surfaces in a box, and prints how many
@@ -81,6 +88,7 @@ struct ExportOptions {
     std::vector<double> offset_map;
     bool local = false;              ///< bt, ot: that point is the map's own origin
     std::optional<double> height_m;  ///< yaml: of the slice [m], in the map frame
+    bool force = false;              ///< replace files of other kinds
 };
 
 /// `hgmm-map export`: one level in another program's format, in the map frame.

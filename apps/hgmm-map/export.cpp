@@ -1,9 +1,6 @@
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CSetOfObjects.h>
 
-#include <filesystem>
-#include <stdexcept>
-
 #include "commands.h"
 #include "ellipsoid_mesh.h"
 #include "export_octree.h"
@@ -13,6 +10,8 @@
 
 namespace maptool {
 namespace {
+
+using hgmm::mrpt_bridge::FileKind;
 
 constexpr double kSigmas = 2.0;
 constexpr int kAllEllipsoids = 10000000;  // the most that renderOptions take
@@ -40,7 +39,7 @@ void exportPly(const hgmm::Map& map, const ExportOptions& options) {
         else
             appendEllipsoid(mixture[i], map.origin(), kSigmas, id, ply);
     }
-    writePly(options.output, ply);
+    writePly(options.output, ply, replaceFor(options.force));
 }
 
 void exportScene(mrpt::maps::CHGMMOccupancyMap map, const ExportOptions& options) {
@@ -58,27 +57,38 @@ void exportScene(mrpt::maps::CHGMMOccupancyMap map, const ExportOptions& options
     mrpt::opengl::COpenGLScene scene;
     scene.insert(objects);
 
-    const std::string partial = options.output + ".partial";
-    std::error_code error;
-    const bool saved = scene.saveToFile(partial);
-    if (saved) std::filesystem::rename(partial, options.output, error);
-    if (!saved || error) {
-        std::filesystem::remove(partial, error);
-        throw std::runtime_error(options.output + ": cannot be written");
-    }
+    hgmm::mrpt_bridge::OutputFile file({options.output, FileKind::scene},
+                                       replaceFor(options.force));
+    hgmm::mrpt_bridge::writeObject(file, scene);
+    file.commit();
+}
+
+std::vector<hgmm::mrpt_bridge::Output> outputsOf(const ExportOptions& options) {
+    const std::string& file = options.output;
+    if (options.format == "ply") return {{file, FileKind::ply}};
+    if (options.format == "png") return {{file, FileKind::png}};
+    if (options.format == "3Dscene") return {{file, FileKind::scene}};
+    if (options.format == "yaml")
+        return {{file, FileKind::slice}, {pictureBeside(file), FileKind::pgm}};
+    if (options.local || !options.offset_map.empty())
+        return {{file, FileKind::octree}, {offsetBeside(file), FileKind::numbers}};
+    return {{file, FileKind::octree}};
 }
 
 }  // namespace
 
 void exportMap(const ExportOptions& options) {
+    hgmm::mrpt_bridge::checkOutputs(outputsOf(options), {options.mapFile},
+                                    replaceFor(options.force));
     const mrpt::maps::CHGMMOccupancyMap map = loadMap(options.mapFile);
     if (options.format == "ply")
         exportPly(map.model(), options);
     else if (options.format == "png")
-        hgmm::evaluation::writePng(
-            hgmm::evaluation::renderEllipsoids(
-                levelOf(map.model(), options.level, options.mapFile), options.view),
-            options.output);
+        hgmm::mrpt_bridge::writeFile(
+            options.output,
+            hgmm::evaluation::pngOf(hgmm::evaluation::renderEllipsoids(
+                levelOf(map.model(), options.level, options.mapFile), options.view)),
+            replaceFor(options.force));
     else if (options.format == "3Dscene")
         exportScene(map, options);
     else if (options.format == "yaml")

@@ -118,6 +118,7 @@ CLI::App* defineExport(CLI::App& app, ExportOptions& exporting) {
                      "ply: ellipsoids or points; 3Dscene: MRPT; png: a picture; bt, ot: "
                      "OctoMap; yaml: slice for ROS' map_server. Default: OUT's extension")
         ->check(CLI::IsMember(kFormats));
+    addForce(*exports, exporting.force);
     exports->add_option("--level", exporting.level, "Level of the hierarchy, 0 = finest")
         ->check(CLI::NonNegativeNumber);
     const std::vector<Restricted> restricted = defineOptions(*exports, exporting);

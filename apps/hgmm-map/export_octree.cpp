@@ -10,7 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "hgmm/evaluation/metrics_json.h"
+#include "hgmm/mrpt_bridge/output_file.h"
 #include "hgmm/mrpt_bridge/voxel_grid.h"
 #include "load.h"
 
@@ -51,18 +51,32 @@ Eigen::Vector3d offsetOf(const hgmm::Map& map, const ExportOptions& options,
     return edge_m * (wanted / edge_m).array().round();
 }
 
-void tellOffset(const Eigen::Vector3d& offset_map, const std::string& output) {
+std::string offsetText(const Eigen::Vector3d& offset_map) {
     char text[120];
     std::snprintf(text, sizeof text, "%.9f %.9f %.9f\n", offset_map.x(), offset_map.y(),
                   offset_map.z());
-    const std::string file =
-        std::filesystem::path(output).replace_extension(".offset.txt").string();
-    hgmm::evaluation::writeTextFile(file, text);
-    std::cout << "offset " << text << "written to " << file
-              << ": add it to the tree's points to have those of the map" << std::endl;
+    return text;
+}
+
+/// The tree, and where it lies if that was asked for.
+void writeTree(const std::string& tree, const Eigen::Vector3d& offset_map,
+               const ExportOptions& options) {
+    std::vector<hgmm::mrpt_bridge::FileContent> files;
+    const std::string text = offsetText(offset_map), file = offsetBeside(options.output);
+    const bool hasOffset = options.local || !options.offset_map.empty();
+    if (hasOffset) files.push_back({file, text});
+    files.push_back({options.output, tree});
+    hgmm::mrpt_bridge::writeFiles(files, replaceFor(options.force));
+    if (hasOffset)
+        std::cout << "offset " << text << "written to " << file
+                  << ": add it to the tree's points to have those of the map" << std::endl;
 }
 
 }  // namespace
+
+std::string offsetBeside(const std::string& tree) {
+    return std::filesystem::path(tree).replace_extension(".offset.txt").string();
+}
 
 void exportOctree(const hgmm::Map& map, const ExportOptions& options) {
     levelOf(map, options.level, options.mapFile);
@@ -81,9 +95,7 @@ void exportOctree(const hgmm::Map& map, const ExportOptions& options) {
     const bool written =
         options.format == "bt" ? tree.writeBinary(bytes) : tree.write(bytes);
     if (!written) throw std::runtime_error(options.output + ": cannot be written");
-    hgmm::evaluation::writeTextFile(options.output, bytes.str());
-    if (options.local || !options.offset_map.empty())
-        tellOffset(offset_map, options.output);
+    writeTree(bytes.str(), offset_map, options);
 }
 
 }  // namespace maptool

@@ -16,4 +16,7 @@ namespace maptool {
 /// each side of the origin that an octree can hold.
 void exportOctree(const hgmm::Map& map, const ExportOptions& options);
 
+/// NAME.offset.txt.
+std::string offsetBeside(const std::string& tree);
+
 }  // namespace maptool

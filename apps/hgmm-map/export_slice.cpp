@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "hgmm/evaluation/metrics_json.h"
+#include "hgmm/mrpt_bridge/output_file.h"
 #include "hgmm/mrpt_bridge/voxel_grid.h"
 #include "load.h"
 
@@ -66,6 +66,10 @@ std::string yamlOf(const Slice& slice, double resolution_m, const std::string& i
 
 }  // namespace
 
+std::string pictureBeside(const std::string& yaml) {
+    return std::filesystem::path(yaml).replace_extension(".pgm").string();
+}
+
 void exportSlice(const hgmm::Map& map, const ExportOptions& options) {
     levelOf(map, options.level, options.mapFile);
     hgmm::mrpt_bridge::VoxelParams params;
@@ -78,13 +82,13 @@ void exportSlice(const hgmm::Map& map, const ExportOptions& options) {
                                  std::to_string(*options.height_m) +
                                  " m; hgmm-map info tells its extent");
     const Slice slice = sliceOf(grid);
-    const std::filesystem::path picture =
-        std::filesystem::path(options.output).replace_extension(".pgm");
-    hgmm::evaluation::writeTextFile(
-        picture.string(), "P5\n" + std::to_string(slice.width) + " " +
-                              std::to_string(slice.height) + "\n255\n" + slice.cells);
-    hgmm::evaluation::writeTextFile(
-        options.output, yamlOf(slice, grid.resolution_m, picture.filename().string()));
+    const std::string picture = pictureBeside(options.output);
+    const std::string cells = "P5\n" + std::to_string(slice.width) + " " +
+                              std::to_string(slice.height) + "\n255\n" + slice.cells;
+    const std::string yaml =
+        yamlOf(slice, grid.resolution_m, std::filesystem::path(picture).filename());
+    hgmm::mrpt_bridge::writeFiles({{picture, cells}, {options.output, yaml}},
+                                  replaceFor(options.force));
 }
 
 }  // namespace maptool

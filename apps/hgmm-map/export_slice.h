@@ -12,4 +12,7 @@ namespace maptool {
 /// Throws std::runtime_error naming the file, and if the map knows nothing at this height.
 void exportSlice(const hgmm::Map& map, const ExportOptions& options);
 
+/// NAME.pgm.
+std::string pictureBeside(const std::string& yaml);
+
 }  // namespace maptool

@@ -10,6 +10,8 @@ void forget(const ForgetOptions& options) {
     const std::vector<double>& b = options.box;
     if (b.size() != 6)
         throw std::runtime_error("--box: must be six numbers x0,y0,z0,x1,y1,z1");
+    hgmm::mrpt_bridge::checkOutputs({{options.output, hgmm::mrpt_bridge::FileKind::map}},
+                                    {options.mapFile}, replaceFor(options.force));
     mrpt::maps::CHGMMOccupancyMap map = loadMap(options.mapFile);
     std::size_t forgotten = 0;
     try {
@@ -21,7 +23,7 @@ void forget(const ForgetOptions& options) {
     }
     std::printf("components  %zu forgotten, %zu stay\n", forgotten,
                 map.model().mixture().size());
-    map.saveToFile(options.output);
+    map.saveToFile(options.output, options.force);
 }
 
 }  // namespace maptool

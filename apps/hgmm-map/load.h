@@ -5,10 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "hgmm/mrpt_bridge/output_file.h"
+
 namespace maptool {
 
 /// Reads a saved map. Throws std::runtime_error naming the file.
 mrpt::maps::CHGMMOccupancyMap loadMap(const std::string& file);
+
+/// The --force of commands.
+inline hgmm::mrpt_bridge::Replace replaceFor(bool force) {
+    return force ? hgmm::mrpt_bridge::Replace::anyKind
+                 : hgmm::mrpt_bridge::Replace::sameKind;
+}
 
 /// A level of a map that must not be empty. Throws std::runtime_error saying which levels
 /// the map has, or that it is empty.

@@ -27,6 +27,7 @@ CLI::App* defineSample(CLI::App& app, maptool::SampleOptions& sampling) {
                      "Colour the points: by r, g, b if the map has them, else by its first "
                      "modality");
     sample->add_option("-o", sampling.output, "Output file")->required();
+    maptool::addForce(*sample, sampling.force);
     return sample;
 }
 
@@ -78,6 +79,7 @@ CLI::App* defineMerge(CLI::App& app, maptool::MergeOptions& merging) {
                     "Align B's surfaces with A's first; the pose may be half a metre and "
                     "ten degrees off");
     merge->add_option("-o", merging.output, "Output file (.hgmm)")->required();
+    maptool::addForce(*merge, merging.force);
     return merge;
 }
 
@@ -86,6 +88,7 @@ CLI::App* defineForget(CLI::App& app, maptool::ForgetOptions& forgetting) {
         "forget", "Remove the surfaces in a box: what is known to be gone");
     forget->add_option("IN", forgetting.mapFile, "Saved map")->required();
     forget->add_option("OUT", forgetting.output, "Output file (.hgmm)")->required();
+    maptool::addForce(*forget, forgetting.force);
     forget
         ->add_option("--box", forgetting.box,
                      "Lowest and highest corner [m], in the map frame")
@@ -118,6 +121,9 @@ int main(int argc, char** argv) {
     CLI::App* info =
         app.add_subcommand("info", "Levels, size, extent, origin, modalities and options");
     info->add_option("MAP", infoFile, "Saved map")->required();
+    std::vector<std::string> checked;
+    CLI::App* check = app.add_subcommand("check", "Say whether maps may go to a robot");
+    check->add_option("MAP", checked, "Saved maps")->required();
     maptool::SampleOptions sampling;
     const CLI::App* sample = defineSample(app, sampling);
     maptool::QueryOptions querying;
@@ -141,6 +147,7 @@ int main(int argc, char** argv) {
     }
     try {
         if (*info) maptool::info(infoFile);
+        if (*check && !maptool::check(checked)) return kBadInput;
         if (*sample) maptool::sample(sampling);
         if (*query) maptool::query(querying);
         if (*raycast) maptool::raycast(casting);

@@ -55,6 +55,9 @@ void printPose(const Pose& T) {
 }  // namespace
 
 void merge(const MergeOptions& options) {
+    hgmm::mrpt_bridge::checkOutputs({{options.output, hgmm::mrpt_bridge::FileKind::map}},
+                                    {options.mapFile, options.otherFile},
+                                    replaceFor(options.force));
     mrpt::maps::CHGMMOccupancyMap map = loadMap(options.mapFile);
     const mrpt::maps::CHGMMOccupancyMap other = loadMap(options.otherFile);
     Pose T_map_other = poseOf(options.pose);
@@ -68,7 +71,7 @@ void merge(const MergeOptions& options) {
     map.model().merge(other.model(), T_map_other);
     std::printf("components  %zu and %zu became %zu\n", before,
                 other.model().mixture().size(), map.model().mixture().size());
-    map.saveToFile(options.output);
+    map.saveToFile(options.output, options.force);
 }
 
 }  // namespace maptool

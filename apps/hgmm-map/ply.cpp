@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "hgmm/evaluation/metrics_json.h"
-
 namespace maptool {
 namespace {
 
@@ -37,7 +35,7 @@ std::string header(const Ply& ply) {
 
 }  // namespace
 
-void writePly(const std::string& file, const Ply& ply) {
+void writePly(const std::string& file, const Ply& ply, hgmm::mrpt_bridge::Replace replace) {
     std::string bytes = header(ply);
     for (std::size_t i = 0; i < ply.vertices.size(); ++i) {
         for (int axis = 0; axis < 3; ++axis) append(bytes, ply.vertices[i][axis]);
@@ -48,7 +46,7 @@ void writePly(const std::string& file, const Ply& ply) {
         append(bytes, std::uint8_t{3});
         append(bytes, face);
     }
-    hgmm::evaluation::writeTextFile(file, bytes);
+    hgmm::mrpt_bridge::writeFile(file, bytes, replace);
 }
 
 Colour colourOf(std::uint32_t component) {

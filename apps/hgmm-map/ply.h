@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "hgmm/mrpt_bridge/output_file.h"
+
 namespace maptool {
 
 using Colour = std::array<std::uint8_t, 3>;
@@ -19,7 +21,7 @@ struct Ply {
 
 /// Writes binary little-endian PLY, coordinates in double. The file appears whole or not at
 /// all. Throws std::runtime_error naming the file.
-void writePly(const std::string& file, const Ply& ply);
+void writePly(const std::string& file, const Ply& ply, hgmm::mrpt_bridge::Replace replace);
 
 /// A colour that differs well from those of neighbouring numbers.
 Colour colourOf(std::uint32_t component);

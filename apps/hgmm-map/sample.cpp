@@ -29,13 +29,15 @@ std::vector<Colour> coloursOf(const hgmm::Map& map,
 }  // namespace
 
 void sample(const SampleOptions& options) {
+    hgmm::mrpt_bridge::checkOutputs({{options.output, hgmm::mrpt_bridge::FileKind::ply}},
+                                    {options.mapFile}, replaceFor(options.force));
     const mrpt::maps::CHGMMOccupancyMap map = loadMap(options.mapFile);
     Ply ply;
     ply.vertices = hgmm::evaluation::sampleSurface(
         levelOf(map.model(), options.level, options.mapFile), map.model().origin(),
         options.points, options.seed);
     if (options.colour) ply.colours = coloursOf(map.model(), ply.vertices, options.mapFile);
-    writePly(options.output, ply);
+    writePly(options.output, ply, replaceFor(options.force));
 }
 
 }  // namespace maptool

@@ -1,13 +1,13 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <stdexcept>
 
 #include "interrupt.h"
 #include "map_setup.h"
 #include "occupancy_options.h"
 #include "options.h"
+#include "prepare_outputs.h"
 #include "replay_scans.h"
 #include "report.h"
 #include "studies/studies.h"
@@ -57,6 +57,7 @@ void defineOptions(CLI::App& app, Options& o, bool& listStudies) {
     defineOccupancyOptions(app, o);
     app.add_option("--report", o.reportFolder, "Folder for metrics.json and figures");
     app.add_option("--save-map", o.saveMap, "File for the map (.hgmm)");
+    app.add_flag("--force", o.force, "Replace a file that is no map with --save-map, too");
     app.add_option("--from", o.from, "First scan to use")->check(CLI::NonNegativeNumber);
     app.add_option("--to", o.to, "Last scan to use")->check(CLI::NonNegativeNumber);
     app.add_option("--threads", o.threads, "Threads (0 = one per core)")
@@ -99,18 +100,6 @@ void checkUsage(const Options& o) {
     }
 }
 
-/// Files that could not be written at the end of a long run had better be known at its
-/// start.
-void prepareOutputs(const Options& o) {
-    std::error_code error;
-    if (o.reportFolder) std::filesystem::create_directories(*o.reportFolder, error);
-    if (o.reportFolder && !std::filesystem::is_directory(*o.reportFolder))
-        throw std::runtime_error(*o.reportFolder + ": the report folder cannot be made");
-    const auto folder = std::filesystem::path(o.saveMap.value_or("")).parent_path();
-    if (!folder.empty() && !std::filesystem::is_directory(folder))
-        throw std::runtime_error(*o.saveMap + ": there is no folder " + folder.string());
-}
-
 /// Says which modalities the map was to have and no scan brought.
 void warnOfAbsentModalities(const hgmm::Map& map) {
     for (const std::string& name : map.modalities())
@@ -130,7 +119,7 @@ ExitCode makeMapAndReport(Recording& recording, const Options& options) {
                stdout);
     if (options.reportFolder)
         writeReport(replayed, maps, *options.reportFolder, picturesOf(replayed));
-    if (options.saveMap) replayed.map->saveToFile(*options.saveMap);
+    if (options.saveMap) replayed.map->saveToFile(*options.saveMap, options.force);
     if (!replayed.run.interrupted) return kDone;
     std::fprintf(stderr,
                  "interrupted: all of the above is for the first %zu of %zu scans\n",

@@ -25,6 +25,7 @@ struct Options {
     std::optional<std::string> poses;
     std::optional<std::string> reportFolder;
     std::optional<std::string> saveMap;
+    bool force = false;  ///< replace a file in the place of saveMap that is no map
     std::optional<std::string> study;
     StudyChoice choice;
     hgmm::evaluation::SplitParams split;

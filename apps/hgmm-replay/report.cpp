@@ -4,6 +4,7 @@
 #include "hgmm/evaluation/metrics_json.h"
 #include "hgmm/evaluation/occupancy_plots.h"
 #include "hgmm/evaluation/render.h"
+#include "hgmm/mrpt_bridge/output_file.h"
 
 namespace replay {
 
@@ -82,12 +83,14 @@ std::vector<ReportPicture> picturesOf(const Replayed& replayed) {
 
 void writeReport(const Replayed& replayed, const std::vector<MapFigures>& maps,
                  const std::string& folder, const std::vector<ReportPicture>& pictures) {
-    writeTextFile(folder + "/metrics.json", metricsJson(replayed.run, maps).dump(2) + "\n");
-    writeTextFile(folder + "/report.html", htmlReport(replayed.run, maps, pictures));
+    hgmm::mrpt_bridge::writeFile(folder + "/metrics.json",
+                                 metricsJson(replayed.run, maps).dump(2) + "\n");
+    hgmm::mrpt_bridge::writeFile(folder + "/report.html",
+                                 htmlReport(replayed.run, maps, pictures));
     if (!maps.front().occupancy) return;
-    writeTextFile(folder + "/roc.svg", toSvg(rocPlot(maps)));
-    writeTextFile(folder + "/reliability.svg", toSvg(reliabilityPlot(maps)));
-    writeTextFile(folder + "/levels.svg", toSvg(levelsPlot(maps)));
+    hgmm::mrpt_bridge::writeFile(folder + "/roc.svg", toSvg(rocPlot(maps)));
+    hgmm::mrpt_bridge::writeFile(folder + "/reliability.svg", toSvg(reliabilityPlot(maps)));
+    hgmm::mrpt_bridge::writeFile(folder + "/levels.svg", toSvg(levelsPlot(maps)));
 }
 
 }  // namespace replay

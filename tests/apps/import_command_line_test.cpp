@@ -59,13 +59,18 @@ TEST_F(ImportCommandLine, WrongUsageIsTwo) {
           "pcd in --poses poses.txt --actions --odometry-noise -1,1" + outputs,
           "pcd in --poses poses.txt --actions --odometry-noise inf,1" + outputs,
           "7scenes in --intrinsics 0,1,1,1" + outputs,
-          "7scenes in --intrinsics 1,1,x,1" + outputs,
-          std::string("pcd in --poses poses.txt -o same --poses-out same"),
-          std::string("pcd in --poses poses.txt -o a --poses-out b --simplemap b")}) {
+          "7scenes in --intrinsics 1,1,x,1" + outputs}) {
         const auto result = run(arguments);
         EXPECT_EQ(result.exitCode, 2) << arguments;
         EXPECT_FALSE(result.err.empty()) << arguments;
     }
+}
+
+TEST_F(ImportCommandLine, TwoOutputsAreTwoFiles) {
+    for (const char* outputs : {"-o same --poses-out same", "-o same --poses-out ./same",
+                                "-o a --poses-out same --simplemap same"})
+        expectBadInput("pcd in --poses poses.txt " + std::string(outputs),
+                       "same: two outputs would be this file");
     EXPECT_FALSE(std::filesystem::exists(path("same")));
 }
 
@@ -103,6 +108,6 @@ TEST_F(ImportCommandLine, UnwritableOutputsLeaveNothingBehind) {
         "pcd in --poses poses.txt -o out.rawlog --poses-out out.tum --simplemap "
         "gone/out.simplemap",
         "gone/out.simplemap");
-    for (const char* name : {"out.rawlog", "out.rawlog.tmp", "out.tum", "out.tum.tmp"})
-        EXPECT_FALSE(std::filesystem::exists(path(name))) << name;
+    for (const auto& entry : std::filesystem::directory_iterator(path("")))
+        EXPECT_NE(entry.path().filename().string().rfind("out.", 0), 0U) << entry;
 }

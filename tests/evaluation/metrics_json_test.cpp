@@ -2,12 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "hgmm/evaluation/occupancy_plots.h"
 #include "hgmm/evaluation/svg_plot.h"
-#include "scratch_folder.h"
 
 using namespace hgmm::evaluation;
 
@@ -174,17 +170,6 @@ TEST(MetricsJson, WhatWasNotMeasuredIsLeftOut) {
         EXPECT_FALSE(json["maps"][0].contains(key)) << key;
     EXPECT_EQ(json.dump().find("null"), std::string::npos);
     EXPECT_EQ(json["dataset"]["interrupted"], true);
-}
-
-class TextFile : public ScratchFolder {};
-
-TEST_F(TextFile, AppearsWholeOrNotAtAll) {
-    writeTextFile(path("a.json"), "first");
-    writeTextFile(path("a.json"), "second");
-    std::ifstream in(path("a.json"));
-    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "second");
-    EXPECT_FALSE(std::filesystem::exists(path("a.json.partial")));
-    EXPECT_THROW(writeTextFile(path("missing/a.json"), "x"), std::runtime_error);
 }
 
 TEST(SvgPlot, CurvesStayInsideTheFrameAndAxesAreLabelled) {

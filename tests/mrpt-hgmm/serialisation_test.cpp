@@ -201,6 +201,38 @@ TEST_F(Serialisation, DamagedArchivesThrowOrKeepTheModel) {
     }
 }
 
+// The check sum of gzip is right, the content is not.
+TEST_F(Serialisation, DamagedContentIsSaidInPlainWords) {
+    mrpt::io::CMemoryStream stream;
+    mrpt::serialization::archiveFrom(stream) << filledMap();
+    const auto* data = static_cast<const char*>(stream.getRawBufferData());
+    const std::vector<char> whole(data, data + stream.getTotalBytesCount());
+    int refused = 0;
+    for (std::size_t at = 0; at < whole.size(); at += 1 + at / 20) {
+        for (const char flip : {'\x01', '\x40', '\x80'}) {
+            auto bytes = whole;
+            bytes[at] = static_cast<char>(bytes[at] ^ flip);
+            {
+                mrpt::io::CFileGZOutputStream out(path("damaged.hgmm"));
+                out.Write(bytes.data(), bytes.size());
+            }
+            CHGMMOccupancyMap map;
+            try {
+                map.loadFromFile(path("damaged.hgmm"));
+                continue;  // an option's value
+            } catch (const std::runtime_error& e) {
+                ++refused;
+                const std::string said = e.what();
+                EXPECT_EQ(said.rfind(path("damaged.hgmm: "), 0), 0U) << said;
+                for (const char* code : {".h:", ".cpp", "[", "std::", "typename", "\n"})
+                    EXPECT_EQ(said.find(code), std::string::npos) << at << ": " << said;
+                for (const char c : said) EXPECT_TRUE(c >= ' ' && c < 0x7F) << at;
+            }
+        }
+    }
+    EXPECT_GT(refused, 200);
+}
+
 TEST_F(Serialisation, ForeignFilesAreRefused) {
     write(path("text.hgmm"), {'h', 'e', 'l', 'l', 'o', ' ', 'w', 'o', 'r', 'l', 'd'});
     EXPECT_NE(refusal(path("text.hgmm")).find("text.hgmm: not a saved map"),

@@ -18,6 +18,7 @@ CloudFilesSource::CloudFilesSource(const std::string& folder, const std::string&
     summary_.notes = matching.notes;
     summary_.order = matching.order;
     summary_.withoutPose = matching.withoutPose;
+    summary_.files = files;
 }
 
 RecordedCloud CloudFilesSource::readCloud(std::size_t index) const {
@@ -36,6 +37,7 @@ WorldFramePcdSource::WorldFramePcdSource(const std::string& folder,
                                          const CloudOptions& options)
     : CloudSource(options), files_(orderByName(listFiles(folder, ".pcd"))) {
     summary_.order = "by name, poses from VIEWPOINT";
+    summary_.files = files_;
 }
 
 RecordedCloud WorldFramePcdSource::readCloud(std::size_t index) const {

@@ -91,6 +91,9 @@ KittiSource::KittiSource(const std::string& folder, const std::string& poseFile,
     summary_.notes = matching.notes;
     summary_.order = matching.order;
     summary_.withoutPose = matching.withoutPose;
+    summary_.files = files;
+    for (const char* name : {"calib.txt", "times.txt"})
+        summary_.files.push_back(fs::path(folder) / name);
 }
 
 RecordedCloud KittiSource::readCloud(std::size_t index) const {

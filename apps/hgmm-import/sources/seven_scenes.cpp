@@ -63,6 +63,8 @@ SevenScenesSource::SevenScenesSource(const std::string& folder, const RgbdOption
         const std::string stem = name.substr(0, name.size() - kDepthSuffix.size());
         try {
             const fs::path poseFile = stem + ".pose.txt";
+            summary_.files.push_back(path);
+            summary_.files.push_back(poseFile);
             if (!fs::exists(poseFile))
                 failFile(poseFile, "is missing; each depth image needs its pose");
             frames_.push_back({{path, findColor(stem)},
@@ -78,7 +80,10 @@ SevenScenesSource::SevenScenesSource(const std::string& folder, const RgbdOption
         summary_.notes.push_back(firstProblem + " (" +
                                  std::to_string(summary_.withoutPose) +
                                  " frames without a pose are left out)");
+    for (const Frame& frame : frames_)
+        if (frame.images.color) summary_.files.push_back(*frame.images.color);
     const fs::path intrinsicsFile = fs::path(folder) / "camera-intrinsics.txt";
+    summary_.files.push_back(intrinsicsFile);
     if (options.intrinsics)
         camera_ = *options.intrinsics;
     else if (fs::exists(intrinsicsFile))

@@ -3,6 +3,7 @@
 #include <mrpt/obs/CObservation.h>
 
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,6 +28,7 @@ struct SourceSummary {
     std::string scale;               ///< of lengths and channels; empty: nothing to say
     std::size_t withoutPose = 0;     ///< scans left out because they have no pose
     ExpectedRange expectedRange;
+    std::vector<std::filesystem::path> files;  ///< all that are read from a folder
 };
 
 /// A recording on disk. Constructors look at the folder and the pose file, and load() at

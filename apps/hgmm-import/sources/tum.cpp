@@ -89,6 +89,9 @@ TumSource::TumSource(const std::string& folder, const RgbdOptions& options) {
         fs::exists(colorList) ? readList(colorList) : std::vector<StampedFile>{};
     const fs::path poseFile = root / "groundtruth.txt";
     const auto poses = evaluation::readTrajectory(poseFile.string());
+    summary_.files = {root / "depth.txt", colorList, poseFile};
+    for (const auto* list : {&depths, &colors})
+        for (const auto& image : *list) summary_.files.push_back(image.path);
     const double tolerance_s = options.tolerance_s;
     for (const auto& [stamp, path] : depths)
         if (const auto pose = evaluation::poseAt(poses, stamp, tolerance_s))

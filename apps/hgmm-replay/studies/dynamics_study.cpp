@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "hgmm/evaluation/metrics_json.h"
+#include "hgmm/mrpt_bridge/output_file.h"
 #include "interrupt.h"
 #include "studies/dynamics_protocols.h"
 #include "studies/study_choice.h"
@@ -61,7 +61,8 @@ void writeMetrics(const DynamicsTables& tables, const Options& options) {
                                 {"interrupted", interrupted()}};
     for (const FigureTable* table : allOf(tables))
         if (!table->empty()) json[table->key()] = table->json();
-    writeTextFile(*options.reportFolder + "/metrics.json", json.dump(2) + "\n");
+    hgmm::mrpt_bridge::writeFile(*options.reportFolder + "/metrics.json",
+                                 json.dump(2) + "\n");
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <sstream>
 
-#include "hgmm/evaluation/metrics_json.h"
 #include "hgmm/evaluation/svg_plot.h"
 #include "hgmm/evaluation/timing.h"
+#include "hgmm/mrpt_bridge/output_file.h"
 
 namespace replay {
 namespace {
@@ -96,11 +96,11 @@ std::string fidelitySummary(const std::vector<FidelityCurve>& curves, std::size_
 
 void writeFidelityReport(const std::vector<FidelityCurve>& curves,
                          const std::string& folder) {
-    using hgmm::evaluation::writeTextFile;
-    writeTextFile(folder + "/fig3.2.csv", csv(curves));
-    writeTextFile(folder + "/fig3.2_kl.svg", svg(curves, "KL", &FidelityPoint::kl));
-    writeTextFile(folder + "/fig3.2_cs.svg",
-                  svg(curves, "Cauchy-Schwarz", &FidelityPoint::cauchySchwarz));
+    using hgmm::mrpt_bridge::writeFile;
+    writeFile(folder + "/fig3.2.csv", csv(curves));
+    writeFile(folder + "/fig3.2_kl.svg", svg(curves, "KL", &FidelityPoint::kl));
+    writeFile(folder + "/fig3.2_cs.svg",
+              svg(curves, "Cauchy-Schwarz", &FidelityPoint::cauchySchwarz));
 }
 
 }  // namespace replay

@@ -8,10 +8,10 @@
 #include <stdexcept>
 
 #include "hgmm/evaluation/likelihood.h"
-#include "hgmm/evaluation/metrics_json.h"
 #include "hgmm/evaluation/range_noise.h"
 #include "hgmm/gaussian.h"
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
+#include "hgmm/mrpt_bridge/output_file.h"
 #include "hgmm/scan.h"
 #include "interrupt.h"
 #include "map_setup.h"
@@ -143,7 +143,8 @@ void incrementalStudy(Recording& recording, const RecordingOptions& recordingOpt
     if (comparisonStopped()) return;
     std::fputs(summary(comparison, replayed.run, hits_map.size()).c_str(), stdout);
     if (options.reportFolder)
-        writeTextFile(*options.reportFolder + "/incremental.csv", csv(comparison));
+        hgmm::mrpt_bridge::writeFile(*options.reportFolder + "/incremental.csv",
+                                     csv(comparison));
 }
 
 }  // namespace replay

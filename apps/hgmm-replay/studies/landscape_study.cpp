@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "format.h"
-#include "hgmm/evaluation/metrics_json.h"
 #include "hgmm/evaluation/pose_landscape.h"
 #include "hgmm/evaluation/timing.h"
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
+#include "hgmm/mrpt_bridge/output_file.h"
 #include "hgmm/registration.h"
 #include "hgmm/scan.h"
 #include "interrupt.h"
@@ -185,7 +185,7 @@ void report(const std::string& title, const std::vector<ScanLandscape>& scans,
     if (scans.empty()) throw std::runtime_error(options.log + ": no scan was left to test");
     std::fputs(summary(title, scans).c_str(), stdout);
     if (options.reportFolder)
-        writeTextFile(*options.reportFolder + "/landscape.csv", csv(scans));
+        hgmm::mrpt_bridge::writeFile(*options.reportFolder + "/landscape.csv", csv(scans));
 }
 
 void exploreScan(const Explorer& explorer, const RecordedScan& recorded,

@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "hgmm/evaluation/metrics_json.h"
 #include "hgmm/evaluation/picture.h"
 #include "hgmm/evaluation/split.h"
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
+#include "hgmm/mrpt_bridge/output_file.h"
 #include "interrupt.h"
 #include "map_setup.h"
 #include "progress.h"
@@ -187,7 +187,7 @@ class ModalityTrial {
 
 void writeModalityReport(const ModalityTrial& study, const ModalityFindings& findings,
                          const std::string& folder) {
-    writeTextFile(folder + "/metrics.json", modalityMetrics(findings));
+    hgmm::mrpt_bridge::writeFile(folder + "/metrics.json", modalityMetrics(findings));
     const SensorKind sensor = sensorKindOf(findings.run.sensor);
     const View view = reportView(sensor);
     const ModalityView sequence = study.viewOfSequence();

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "format.h"
-#include "hgmm/evaluation/metrics_json.h"
 #include "hgmm/evaluation/timing.h"
+#include "hgmm/mrpt_bridge/output_file.h"
 #include "interrupt.h"
 #include "studies/figure_table.h"
 #include "studies/notice.h"
@@ -166,7 +166,8 @@ void parkedStudy(const Options& options) {
                                 {"threads", options.threads},
                                 {"interrupted", interrupted()}};
     if (!table.empty()) json[table.key()] = table.json();
-    writeTextFile(*options.reportFolder + "/metrics.json", json.dump(2) + "\n");
+    hgmm::mrpt_bridge::writeFile(*options.reportFolder + "/metrics.json",
+                                 json.dump(2) + "\n");
 }
 
 }  // namespace replay

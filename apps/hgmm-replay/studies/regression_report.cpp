@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "hgmm/evaluation/metrics_json.h"
 #include "hgmm/evaluation/svg_plot.h"
 #include "hgmm/evaluation/timing.h"
+#include "hgmm/mrpt_bridge/output_file.h"
 #include "studies/noisy_sine.h"
 
 namespace replay {
@@ -183,8 +183,8 @@ void writeRegressionReport(const std::vector<RegressionRun>& runs,
                            const std::string& folder) {
     const RegressionRun& run = runs.front();
     const auto write = [&](const char* name, const Plot& plot) {
-        hgmm::evaluation::writeTextFile(folder + "/fig4.5_" + name + ".svg",
-                                        hgmm::evaluation::toSvg(plot));
+        hgmm::mrpt_bridge::writeFile(folder + "/fig4.5_" + name + ".svg",
+                                     hgmm::evaluation::toSvg(plot));
     };
     write("mixture", predictionPlot(run, "Mixture", &RegressionQuery::mixture));
     write("gp", predictionPlot(run, "Gaussian process", &RegressionQuery::gp));
@@ -195,8 +195,8 @@ void writeRegressionReport(const std::vector<RegressionRun>& runs,
           convergencePlot(run, "variance", &RegressionFigures::variance, kNoiseVariance));
     write("first", componentPlot(run.first, run, "first"));
     write("last", componentPlot(run.last, run, "last"));
-    hgmm::evaluation::writeTextFile(folder + "/metrics.json",
-                                    regressionJson(runs).dump(2) + "\n");
+    hgmm::mrpt_bridge::writeFile(folder + "/metrics.json",
+                                 regressionJson(runs).dump(2) + "\n");
 }
 
 }  // namespace replay

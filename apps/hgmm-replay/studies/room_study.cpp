@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "format.h"
-#include "hgmm/evaluation/metrics_json.h"
 #include "hgmm/evaluation/room_figures.h"
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
+#include "hgmm/mrpt_bridge/output_file.h"
 #include "interrupt.h"
 #include "map_setup.h"
 #include "replay_scans.h"
@@ -101,8 +101,8 @@ void roomStudy(Recording& recording, const RecordingOptions& recordingOptions,
         evaluateRoom(map, rays.ofTestScans, room, options.split.seed);
     std::fputs(summary(replayed.run, room, map, saved.size(), figures).c_str(), stdout);
     if (options.reportFolder)
-        writeTextFile(*options.reportFolder + "/room.json",
-                      json(replayed.run, figures).dump(2) + "\n");
+        hgmm::mrpt_bridge::writeFile(*options.reportFolder + "/room.json",
+                                     json(replayed.run, figures).dump(2) + "\n");
 }
 
 }  // namespace replay

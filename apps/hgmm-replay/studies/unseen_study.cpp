@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "hgmm/evaluation/metrics_json.h"
+#include "hgmm/mrpt_bridge/output_file.h"
 #include "interrupt.h"
 #include "studies/unseen_hall.h"
 #include "studies/unseen_solids.h"
@@ -51,7 +51,8 @@ void unseenStudy(const Options& options) {
         json[table->key()] = table->json();
     }
     if (options.reportFolder)
-        writeTextFile(*options.reportFolder + "/metrics.json", json.dump(2) + "\n");
+        hgmm::mrpt_bridge::writeFile(*options.reportFolder + "/metrics.json",
+                                     json.dump(2) + "\n");
 }
 
 }  // namespace replay

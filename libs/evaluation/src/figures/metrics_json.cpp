@@ -1,9 +1,5 @@
 #include "hgmm/evaluation/metrics_json.h"
 
-#include <filesystem>
-#include <fstream>
-#include <stdexcept>
-
 namespace hgmm::evaluation {
 namespace {
 
@@ -149,20 +145,6 @@ Json metricsJson(const Run& run, const std::vector<MapFigures>& maps) {
     json["maps"] = Json::array();
     for (const MapFigures& map : maps) json["maps"].push_back(mapJson(map));
     return json;
-}
-
-void writeTextFile(const std::string& file, const std::string& text) {
-    const std::string partial = file + ".partial";
-    std::ofstream out(partial, std::ios::binary);
-    out << text;
-    out.close();
-    std::error_code error;
-    if (out) std::filesystem::rename(partial, file, error);
-    if (!out || error) {
-        std::filesystem::remove(partial, error);
-        throw std::runtime_error(file +
-                                 ": cannot be written; is there such a folder, and space?");
-    }
 }
 
 }  // namespace hgmm::evaluation

@@ -7,10 +7,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <functional>
+#include <sstream>
 #include <stdexcept>
 
 #include "hgmm/evaluation/parse_numbers.h"
+#include "hgmm/mrpt_bridge/output_file.h"
 
 namespace hgmm::evaluation {
 namespace {
@@ -56,22 +57,6 @@ StampedPose parsePose(const std::string& text, std::size_t& columns, std::size_t
     return columns == kTumColumns ? fromTum(numbers) : fromKitti(numbers, index);
 }
 
-void writeWhole(const std::string& file, const std::function<void(std::ostream&)>& write) {
-    const std::string temporary = file + ".tmp";
-    std::ofstream out(temporary);
-    write(out);
-    out.close();
-    std::error_code error;
-    if (out) std::filesystem::rename(temporary, file, error);
-    if (!out || error) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        throw std::runtime_error(file +
-                                 ": cannot be written; check that the folder exists, is "
-                                 "writable and has room");
-    }
-}
-
 std::string tumLine(const StampedPose& pose) {
     Eigen::Quaterniond q(pose.T_world_frame.R);
     if (q.w() < 0) q.coeffs() = -q.coeffs();
@@ -109,23 +94,26 @@ Trajectory readTrajectory(const std::string& file) {
     return trajectory;
 }
 
+std::string tumText(const Trajectory& trajectory) {
+    std::string text = "# timestamp tx ty tz qx qy qz qw\n";
+    for (const auto& pose : trajectory) text += tumLine(pose);
+    return text;
+}
+
 void writeTumTrajectory(const std::string& file, const Trajectory& trajectory) {
-    writeWhole(file, [&](std::ostream& out) {
-        out << "# timestamp tx ty tz qx qy qz qw\n";
-        for (const auto& pose : trajectory) out << tumLine(pose);
-    });
+    mrpt_bridge::writeFile(file, tumText(trajectory));
 }
 
 void writeKittiTrajectory(const std::string& file, const Trajectory& trajectory) {
-    writeWhole(file, [&](std::ostream& out) {
-        out.precision(12);
-        for (const auto& pose : trajectory) {
-            const auto& [R, t] = pose.T_world_frame;
-            for (int row = 0; row < 3; ++row)
-                out << R(row, 0) << ' ' << R(row, 1) << ' ' << R(row, 2) << ' ' << t(row)
-                    << (row < 2 ? ' ' : '\n');
-        }
-    });
+    std::ostringstream out;
+    out.precision(12);
+    for (const auto& pose : trajectory) {
+        const auto& [R, t] = pose.T_world_frame;
+        for (int row = 0; row < 3; ++row)
+            out << R(row, 0) << ' ' << R(row, 1) << ' ' << R(row, 2) << ' ' << t(row)
+                << (row < 2 ? ' ' : '\n');
+    }
+    mrpt_bridge::writeFile(file, out.str());
 }
 
 std::optional<Pose> poseAt(const Trajectory& trajectory, double stamp, double maxGap) {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "hgmm/evaluation/metrics_json.h"
+#include "hgmm/mrpt_bridge/output_file.h"
 
 namespace hgmm::evaluation {
 namespace {
@@ -84,7 +84,7 @@ std::string pngOf(const Picture& picture) {
 }
 
 void writePng(const Picture& picture, const std::string& file) {
-    writeTextFile(file, pngOf(picture));
+    mrpt_bridge::writeFile(file, pngOf(picture));
 }
 
 std::string base64(const std::string& bytes) {

@@ -3,11 +3,11 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <sstream>
-#include <stdexcept>
 
 #include "display/ellipsoids.h"
 #include "display/octomap_voxels.h"
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
+#include "hgmm/mrpt_bridge/output_file.h"
 #include "localisation/observation_likelihood.h"
 #include "map/map_archive.h"
 #include "observation/shared_samples.h"
@@ -52,10 +52,12 @@ std::size_t CHGMMOccupancyMap::forget(const mrpt::math::TBoundingBox& box_map) {
         {Eigen::Vector3d(low.x, low.y, low.z), Eigen::Vector3d(high.x, high.y, high.z)});
 }
 
-void CHGMMOccupancyMap::saveToFile(const std::string& fileName) const {
+void CHGMMOccupancyMap::saveToFile(const std::string& fileName, bool replaceAnyKind) const {
     CHGMMOccupancyMap compact(*this);
     compact.encoding_ = ::hgmm::Encoding::compact;
-    bridge::saveMapFile(compact, fileName);
+    bridge::saveMapFile(
+        compact, fileName,
+        replaceAnyKind ? bridge::Replace::anyKind : bridge::Replace::sameKind);
 }
 
 void CHGMMOccupancyMap::loadFromFile(const std::string& fileName) {
@@ -85,8 +87,9 @@ void CHGMMOccupancyMap::saveMetricMapRepresentationToFile(const std::string& pre
     if (!genericMapParams.enableSaveAs3DObject) return;
     mrpt::opengl::COpenGLScene scene;
     scene.insert(getVisualization());
-    if (!scene.saveToFile(prefix + ".3Dscene"))
-        throw std::runtime_error(prefix + ".3Dscene: cannot be written");
+    bridge::OutputFile file({prefix + ".3Dscene", bridge::FileKind::scene});
+    bridge::writeObject(file, scene);
+    file.commit();
 }
 
 void CHGMMOccupancyMap::getVisualizationInto(mrpt::opengl::CSetOfObjects& objects) const {

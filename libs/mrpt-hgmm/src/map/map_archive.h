@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "hgmm/mrpt_bridge/output_file.h"
+
 /// How a map is written to MRPT archives and to files.
 namespace hgmm::mrpt_bridge {
 
@@ -19,7 +21,8 @@ std::uint64_t readMap(mrpt::serialization::CArchive& in, std::uint8_t version,
                       mrpt::maps::CHGMMOccupancyMap& map);
 
 /// Implements CHGMMOccupancyMap::saveToFile.
-void saveMapFile(const mrpt::maps::CHGMMOccupancyMap& map, const std::string& fileName);
+void saveMapFile(const mrpt::maps::CHGMMOccupancyMap& map, const std::string& fileName,
+                 Replace replace);
 /// Implements CHGMMOccupancyMap::loadFromFile.
 mrpt::maps::CHGMMOccupancyMap loadMapFile(const std::string& fileName);
 

@@ -1,9 +1,8 @@
 #include <mrpt/core/exceptions.h>
 #include <mrpt/io/CFileGZInputStream.h>
-#include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/io/CMemoryStream.h>
-#include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -22,11 +21,22 @@ namespace {
     throw std::runtime_error(file + ": " + what);
 }
 
-/// MRPT's exceptions carry a call stack; this is the first line of what was said.
+/// Whether a text was written for users: MRPT's own texts name source files and functions,
+/// and names in damaged content hold any bytes.
+bool isPlain(const std::string& text) {
+    for (const char* code : {"::", ".h:", ".cpp:"})
+        if (text.find(code) != std::string::npos) return false;
+    return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+        return c >= ' ' && c < 0x7F;
+    });
+}
+
+/// The first line of what was said; MRPT's exceptions carry a call stack behind it.
 std::string cause(const std::exception& e) {
     const auto* traced = dynamic_cast<const mrpt::ExceptionWithCallBackBase*>(&e);
     const std::string text = traced ? traced->originalWhat : e.what();
-    return text.substr(0, text.find('\n'));
+    const std::string line = text.substr(0, text.find('\n'));
+    return isPlain(line) ? line : "its content is damaged, or no map";
 }
 
 /// Whether a file starts as gzip does and ends with the length of its content. The stream
@@ -69,41 +79,13 @@ std::vector<std::uint8_t> readGzip(const std::string& fileName) {
     return content;
 }
 
-/// Removes a temporary file unless it was renamed away.
-class TemporaryFile {
- public:
-    explicit TemporaryFile(const std::string& target)
-        : name_(target + ".part" + std::to_string(::getpid())) {}
-    ~TemporaryFile() {
-        std::error_code ignored;
-        fs::remove(name_, ignored);
-    }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-    const std::string& name() const { return name_; }
-
- private:
-    std::string name_;
-};
-
 }  // namespace
 
-void saveMapFile(const CHGMMOccupancyMap& map, const std::string& fileName) {
-    mrpt::io::CMemoryStream content;
-    mrpt::serialization::archiveFrom(content) << map;
-
-    const TemporaryFile temporary(fileName);
-    mrpt::io::CFileGZOutputStream stream;
-    std::string why;
-    if (!stream.open(temporary.name(), 1, why)) fail(fileName, "cannot be written: " + why);
-    const std::size_t size = content.getTotalBytesCount();
-    const bool written = stream.Write(content.getRawBufferData(), size) == size;
-    stream.close();
-    if (!written || !isWholeGzip(temporary.name(), size))
-        fail(fileName, "could not be written to its end (is the disk full?)");
-    std::error_code error;
-    fs::rename(temporary.name(), fileName, error);
-    if (error) fail(fileName, "cannot be written: " + error.message());
+void saveMapFile(const CHGMMOccupancyMap& map, const std::string& fileName,
+                 Replace replace) {
+    OutputFile file({fileName, FileKind::map}, replace);
+    writeObject(file, map);
+    file.commit();
 }
 
 CHGMMOccupancyMap loadMapFile(const std::string& fileName) {

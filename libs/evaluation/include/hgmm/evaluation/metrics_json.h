@@ -11,7 +11,4 @@ namespace hgmm::evaluation {
 /// `maps` per map. What was not measured is left out.
 nlohmann::ordered_json metricsJson(const Run& run, const std::vector<MapFigures>& maps);
 
-/// Writes a text file whole or not at all. Throws std::runtime_error naming the file.
-void writeTextFile(const std::string& file, const std::string& text);
-
 }  // namespace hgmm::evaluation

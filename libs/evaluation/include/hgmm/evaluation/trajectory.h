@@ -30,8 +30,11 @@ constexpr double kDefaultPosePeriod = 0.1;
 /// rotation, a stamp that goes back.
 Trajectory readTrajectory(const std::string& file);
 
-/// Writes TUM lines: stamps with 6 decimals, positions with 9, quaternions with 12 (qw >=
-/// 0). The file appears whole or not at all. Throws std::runtime_error naming the file.
+/// TUM lines: stamps with 6 decimals, positions with 9, quaternions with 12 (qw >= 0).
+std::string tumText(const Trajectory& trajectory);
+
+/// Writes TUM lines. The file appears whole or not at all. Throws std::runtime_error naming
+/// the file.
 void writeTumTrajectory(const std::string& file, const Trajectory& trajectory);
 
 /// Writes KITTI lines with 12 significant digits; stamps are lost. Otherwise as above.

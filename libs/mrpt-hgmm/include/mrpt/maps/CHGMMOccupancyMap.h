@@ -111,9 +111,11 @@ class CHGMMOccupancyMap : public CMetricMap, public ::hgmm::mrpt_bridge::Nearest
     /// @{
 
     /// Writes a temporary file beside `fileName` and renames it: no reader ever sees half a
-    /// map.
-    /// @throws std::runtime_error if it cannot be written.
-    void saveToFile(const std::string& fileName) const;
+    /// map. Follows symbolic links; writes devices and pipes directly.
+    /// @param replaceAnyKind whether an existing file that is no map is replaced, too
+    /// @throws std::runtime_error if it cannot be written, or if something is in its place
+    /// that must not be replaced.
+    void saveToFile(const std::string& fileName, bool replaceAnyKind = false) const;
     /// Replaces model and options.
     /// @throws std::runtime_error if the file is missing, truncated, damaged or something
     /// else; the map is unchanged then.
