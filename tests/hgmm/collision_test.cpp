@@ -67,7 +67,7 @@ Eigen::Vector3d pointInRoom(std::mt19937_64& engine) {
             uniform(engine, -0.2, 2.7)};
 }
 
-Capsule randomCapsule(std::mt19937_64& engine) {
+Capsule capsuleInRoom(std::mt19937_64& engine) {
     Capsule body;
     body.from = body.to = pointInRoom(engine);
     if (uniform(engine, 0, 1) < 0.7)
@@ -76,7 +76,7 @@ Capsule randomCapsule(std::mt19937_64& engine) {
     return body;
 }
 
-OrientedBox randomBox(std::mt19937_64& engine) {
+OrientedBox boxInRoom(std::mt19937_64& engine) {
     OrientedBox body;
     body.centre = pointInRoom(engine);
     body.axes = randomRotation(engine);
@@ -85,7 +85,7 @@ OrientedBox randomBox(std::mt19937_64& engine) {
 }
 
 /// Distance from a point to a body by its definition [m]; 0 inside.
-double distanceTo(const Capsule& body, const Eigen::Vector3d& p) {
+double distanceToBody(const Capsule& body, const Eigen::Vector3d& p) {
     const Eigen::Vector3d along = body.to - body.from;
     const double share =
         along.squaredNorm() > 0
@@ -93,7 +93,7 @@ double distanceTo(const Capsule& body, const Eigen::Vector3d& p) {
             : 0.0;
     return std::max(0.0, (p - body.from - share * along).norm() - body.radius_m);
 }
-double distanceTo(const OrientedBox& body, const Eigen::Vector3d& p) {
+double distanceToBody(const OrientedBox& body, const Eigen::Vector3d& p) {
     const Eigen::Vector3d local = body.axes.transpose() * (p - body.centre);
     return (local.cwiseAbs() - body.halfEdges).cwiseMax(0.0).norm();
 }
@@ -111,7 +111,7 @@ void expectNoneMissed(Body (*draw)(std::mt19937_64&), int bodies) {
         const Eigen::Array3d reach = reachOf(body).array() + 2 * kGrid_m;
         for (const Eigen::Vector3d& p : points)
             if (((p - centre).array().abs() < reach).all())
-                nearest = std::min(nearest, distanceTo(body, p));
+                nearest = std::min(nearest, distanceToBody(body, p));
         const Collision answer = roomWithAChest().collision(body);
         if (nearest == 0.0) {
             ++met;
@@ -130,11 +130,11 @@ void expectNoneMissed(Body (*draw)(std::mt19937_64&), int bodies) {
 }
 
 TEST(Collision, OfCapsulesMissesNoPatch) {
-    expectNoneMissed<Capsule>(randomCapsule, 200);
+    expectNoneMissed<Capsule>(capsuleInRoom, 200);
 }
 
 TEST(Collision, OfBoxesMissesNoPatch) {
-    expectNoneMissed<OrientedBox>(randomBox, 200);
+    expectNoneMissed<OrientedBox>(boxInRoom, 200);
 }
 
 /// Against points of the segment: the gap is the least of their distances.
@@ -148,7 +148,7 @@ TEST(Collision, GapOfACapsuleIsExact) {
         g.covariance = 0.1 * randomCovariance<3>(engine, 50);
         mixture.pushBack(g);
         const SurfacePatch<3> patch = *patchOf<3>(mixture, 0);
-        const Capsule body = randomCapsule(engine);
+        const Capsule body = capsuleInRoom(engine);
         double least = std::numeric_limits<double>::infinity();
         for (int i = 0; i <= 2000; ++i) {
             Capsule ball = body;

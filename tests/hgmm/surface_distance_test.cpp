@@ -23,10 +23,10 @@ using test::uniform;
 using testing::emptyRoom;
 using testing::mapOf;
 
-constexpr double kDegree = M_PI / 180.0;
+constexpr double kAligned_rad = 5 * M_PI / 180.0;
 
 /// Components of all sizes and shapes in a cube of 20 m.
-Mixture<3> clutter(std::size_t n, std::uint64_t seed) {
+Mixture<3> patchesOfAllSizes(std::size_t n, std::uint64_t seed) {
     std::mt19937_64 engine(seed);
     Mixture<3> mixture;
     for (std::size_t i = 0; i < n; ++i) {
@@ -89,7 +89,7 @@ double distanceToWalls(const testing::Box& room, const Eigen::Vector3d& p,
     return best;
 }
 
-const Map& scannedRoom() {
+const Map& wholeRoom() {
     static const Map map = mapOf(emptyRoom(), 12);
     return map;
 }
@@ -105,8 +105,8 @@ std::vector<Eigen::Vector3d> pointsInRoom(std::size_t n, std::uint64_t seed) {
 
 TEST(SurfaceDistance, IsThatToTheNearestPatch) {
     for (const std::size_t n : {1U, 3U, 4U, 5U, 17U, 600U}) {
-        expectBruteForce<3>(clutter(n, n), 300, 7);
-        expectBruteForce<2>(clutter(n, n), 300, 8);
+        expectBruteForce<3>(patchesOfAllSizes(n, n), 300, 7);
+        expectBruteForce<2>(patchesOfAllSizes(n, n), 300, 8);
     }
 }
 
@@ -135,11 +135,11 @@ TEST(SurfaceDistance, EndsAtTheCutOff) {
     const Eigen::Vector3d inside(3.0, 0.2, 1.2);  // 1 m from a wall
     DistanceParams params;
     params.maxDistance_m = 1.1;
-    EXPECT_TRUE(scannedRoom().distance(inside, params).known);
+    EXPECT_TRUE(wholeRoom().distance(inside, params).known);
     params.maxDistance_m = 0.9;
     for (const Eigen::Vector3d& p :
          {inside, Eigen::Vector3d(1e4, 0, 0), Eigen::Vector3d(-1e30, 1e30, 1e200)}) {
-        const SurfaceDistance answer = scannedRoom().distance(p, params);
+        const SurfaceDistance answer = wholeRoom().distance(p, params);
         EXPECT_FALSE(answer.answered());
         EXPECT_FALSE(answer.known);
         EXPECT_EQ(answer.distance_m, 0.9);
@@ -150,10 +150,9 @@ TEST(SurfaceDistance, EndsAtTheCutOff) {
 
 TEST(SurfaceDistance, HasNoAnswerForNanAndEmptyMaps) {
     const double nan = std::nan("");
-    EXPECT_FALSE(scannedRoom().distance({0, nan, 1}).answered());
-    EXPECT_EQ(scannedRoom().distance({0, nan, 1}).distance_m,
-              DistanceParams{}.maxDistance_m);
-    EXPECT_FALSE(scannedRoom().horizontalDistance({nan, 0}).answered());
+    EXPECT_FALSE(wholeRoom().distance({0, nan, 1}).answered());
+    EXPECT_EQ(wholeRoom().distance({0, nan, 1}).distance_m, DistanceParams{}.maxDistance_m);
+    EXPECT_FALSE(wholeRoom().horizontalDistance({nan, 0}).answered());
     EXPECT_FALSE(Map().distance({0, 0, 0}).answered());
     EXPECT_FALSE(Map().distance({0, 0, 0}, {}, 2).answered());
     SurfaceDistance answer;
@@ -161,10 +160,10 @@ TEST(SurfaceDistance, HasNoAnswerForNanAndEmptyMaps) {
     DistanceParams params;
     for (const double wrong : {0.0, -1.0, nan, 1e9}) {
         params.maxDistance_m = wrong;
-        EXPECT_THROW(scannedRoom().distance({0, 0, 0}, params), std::invalid_argument)
+        EXPECT_THROW(wholeRoom().distance({0, 0, 0}, params), std::invalid_argument)
             << wrong;
     }
-    EXPECT_THROW(scannedRoom().distance({0, 0, 0}, {}, 99), std::out_of_range);
+    EXPECT_THROW(wholeRoom().distance({0, 0, 0}, {}, 99), std::out_of_range);
 }
 
 TEST(SurfaceDistance, OfARoomIsThatToItsWalls) {
@@ -175,12 +174,12 @@ TEST(SurfaceDistance, OfARoomIsThatToItsWalls) {
     for (const Eigen::Vector3d& p : points) {
         Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
         const double truth = distanceToWalls(box, p, gradient);
-        const SurfaceDistance answer = scannedRoom().distance(p);
+        const SurfaceDistance answer = wholeRoom().distance(p);
         ASSERT_TRUE(answer.answered());
         sum += std::abs(answer.distance_m - truth);
         if (truth < 0.1) continue;
         ++beyond;
-        if (answer.gradient.dot(gradient) > std::cos(5 * kDegree)) ++aligned;
+        if (answer.gradient.dot(gradient) > std::cos(kAligned_rad)) ++aligned;
     }
     EXPECT_LT(sum / double(points.size()), 0.01);
     EXPECT_GT(double(aligned), 0.9 * double(beyond));
@@ -192,9 +191,9 @@ TEST(SurfaceDistance, OfABatchIsThatOfSingleQueries) {
     points[2000] *= 1e6;
     for (const std::size_t level : {0U, 2U}) {
         std::vector<SurfaceDistance> answers(points.size());
-        scannedRoom().distance(points.data(), points.size(), answers.data(), {}, level);
+        wholeRoom().distance(points.data(), points.size(), answers.data(), {}, level);
         for (std::size_t i = 0; i < points.size(); ++i) {
-            const SurfaceDistance one = scannedRoom().distance(points[i], {}, level);
+            const SurfaceDistance one = wholeRoom().distance(points[i], {}, level);
             ASSERT_EQ(one.distance_m, answers[i].distance_m);
             ASSERT_EQ(one.gradient, answers[i].gradient);
             ASSERT_EQ(one.std_m, answers[i].std_m);
@@ -204,7 +203,7 @@ TEST(SurfaceDistance, OfABatchIsThatOfSingleQueries) {
 }
 
 TEST(SurfaceDistance, IsThatOfTheLevel) {
-    const Map& map = scannedRoom();
+    const Map& map = wholeRoom();
     for (std::size_t level = 0; level < map.levelCount(); ++level) {
         const Mixture<3>& mixture = map.mixture(level);
         for (const Eigen::Vector3d& p : pointsInRoom(20, 9)) {
@@ -230,7 +229,7 @@ TEST(SurfaceDistance, FollowsTheMap) {
 
 /// Along a segment, distances differ by no more than the way: nowhere is there a step.
 TEST(SurfaceDistance, IsContinuous) {
-    const PatchTree<3> tree(clutter(300, 11));
+    const PatchTree<3> tree(patchesOfAllSizes(300, 11));
     std::mt19937_64 engine(12);
     for (int k = 0; k < 200; ++k) {
         NearestSurface<3> nearest(tree, 1.5);
@@ -251,7 +250,7 @@ TEST(SurfaceDistance, IsContinuous) {
 }
 
 TEST(SurfaceDistance, IsHorizontalForPlanarLasers) {
-    const Map& map = scannedRoom();
+    const Map& map = wholeRoom();
     const Mixture<3>& mixture = map.mixture();
     for (const Eigen::Vector3d& p : pointsInRoom(20, 10)) {
         double best = std::numeric_limits<double>::infinity();
