@@ -33,13 +33,17 @@ void sample(const SampleOptions& options);
 struct QueryOptions {
     std::string mapFile;
     std::vector<std::string> points;      ///< each "x,y,z" [m]
-    std::string pointsFile;               ///< lines of "x y z" [m], if not empty
+    std::string pointsFile;               ///< CSV or lines of "x y z" [m], if not empty
     std::vector<std::string> modalities;  ///< names to be answered too; "rgb" is all three
     std::size_t level = 0;
+    std::string output;          ///< CSV, or JSON lines; empty: standard output
+    bool json = false;           ///< JSON lines
+    bool distance = false;       ///< Euclidean distance to the nearest surface, too
+    double maxDistance_m = 5.0;  ///< of that [m]
 };
 
-/// `hgmm-map query`: prints, for each point, whether it is occupied, free or unknown, how
-/// far from the surface, and the modalities asked for.
+/// `hgmm-map query`: prints or writes, for each point, whether it is occupied, free or
+/// unknown, how far from the surface, and the modalities asked for.
 void query(const QueryOptions& options);
 
 struct RayOptions {

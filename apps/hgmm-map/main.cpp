@@ -37,13 +37,24 @@ CLI::App* defineQuery(CLI::App& app, maptool::QueryOptions& querying) {
     addMapAndLevel(*query, querying.mapFile, querying.level);
     CLI::Option* points =
         query->add_option("POINT", querying.points, "Points x,y,z [m], in the map frame");
-    CLI::Option* file = query->add_option("--points", querying.pointsFile,
-                                          "File with a line x y z [m] for each point");
+    CLI::Option* file = query->add_option(
+        "--points", querying.pointsFile,
+        "CSV with columns x, y and z [m], or file with a line x y z for each point");
     query
         ->add_option("--modality", querying.modalities,
                      "Print this modality and its variance too; several: r,intensity")
         ->delimiter(',')
         ->allow_extra_args(false);
+    query->add_flag("--distance", querying.distance,
+                    "Answer the distance to the nearest surface, its gradient and standard "
+                    "deviation too");
+    query
+        ->add_option("--max-distance", querying.maxDistance_m,
+                     "How far --distance looks [m]")
+        ->check(CLI::Range(1e-3, 1e6))
+        ->capture_default_str();
+    query->add_option("--out", querying.output, "Output file: CSV, or JSON with --json");
+    query->add_flag("--json", querying.json, "An object for each point and line");
     query->callback([points, file] {
         if (points->count() + file->count() == 0)
             throw CLI::ValidationError("query", "needs points x,y,z or --points FILE");

@@ -21,7 +21,7 @@ void addOccupancies(Dump& dump, const std::string& name,
     std::vector<float> values;
     for (const hgmm::Occupancy& o : answers)
         values.insert(values.end(),
-                      {o.occupied, o.free, o.unknown, o.distance_m, o.variance_m2});
+                      {o.occupied, o.free, o.unknown, o.alongRay_m, o.variance_m2});
     dump.add(name, Kind::answers, "point",
              {"occupied", "free", "unknown", "distance", "variance"}, values);
 }

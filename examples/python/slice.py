@@ -61,7 +61,7 @@ def show(room, poses, file):
     # Occupied red, free white, unknown grey.
     shade = numpy.outer(answers.occupied, [0.75, 0.1, 0.1]) + \
         numpy.outer(answers.free, [1, 1, 1]) + numpy.outer(answers.unknown, [0.6, 0.6, 0.6])
-    distance = room.distance(points).mean.reshape(x.shape)
+    along_ray = room.along_ray(points).mean.reshape(x.shape)
 
     figure, axes = pyplot.subplots(1, 2, figsize=(12, 4.6), sharey=True, layout="constrained")
     extent = (x.min(), x.max(), y.min(), y.max())
@@ -69,7 +69,7 @@ def show(room, poses, file):
     axes[0].plot(*numpy.array([pose[:2, 3] for pose in poses]).T, "k.-", label="sensor")
     axes[0].legend(loc="lower right")
     axes[0].set_title(f"occupied (red), free (white), unknown (grey) at {HEIGHT:g} m")
-    picture = axes[1].imshow(distance, origin="lower", extent=extent, cmap="viridis", vmin=0)
+    picture = axes[1].imshow(along_ray, origin="lower", extent=extent, cmap="viridis", vmin=0)
     axes[1].set_title("expected distance to the surface along the rays (white: not known)")
     figure.colorbar(picture, ax=axes[1], label="m")
     for axis in axes:

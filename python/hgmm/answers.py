@@ -45,7 +45,7 @@ class Occupancy(NamedTuple):
     """P(occ = 0 | x), thesis eq. (4.16), in [0, 1]"""
     unknown: numpy.ndarray
     """never seen, or behind a surface, in [0, 1]"""
-    distance: numpy.ndarray
+    along_ray: numpy.ndarray
     """E[W | x] [m], along the rays that saw x, thesis eq. (4.17); 0 where it is not known"""
     variance: numpy.ndarray
     """Var[W | x] [m^2], thesis eq. (4.18); 0 where it is not known"""

@@ -22,7 +22,7 @@ level: of the hierarchy, 0 the finest.
 Returns an Occupancy of arrays of shape (N,). Raises ValueError for another shape and IndexError
 for a level that does not exist. Uses all cores and releases the GIL.)";
 
-constexpr const char* kDistanceDoc =
+constexpr const char* kAlongRayDoc =
     R"(The expected distance to the surface along the rays that saw a point, and its variance:
 thesis eq. (4.17) and (4.18). It is no Euclidean distance.
 
@@ -80,17 +80,17 @@ py::object occupancy(const SharedMap& map, const py::object& points_map,
     return answer("Occupancy",
                   *askOccupancy(map, points_map, level)
                        .arrays(&Occupancy::occupied, &Occupancy::free, &Occupancy::unknown,
-                               &Occupancy::distance_m, &Occupancy::variance_m2));
+                               &Occupancy::alongRay_m, &Occupancy::variance_m2));
 }
 
-py::object distance(const SharedMap& map, const py::object& points_map, std::size_t level) {
+py::object alongRay(const SharedMap& map, const py::object& points_map, std::size_t level) {
     Columns<Occupancy> answers = askOccupancy(map, points_map, level);
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     for (Occupancy& a : answers) {
-        if (a.unknown >= 1.F || a.variance_m2 <= 0.F) a.distance_m = a.variance_m2 = nan;
+        if (a.unknown >= 1.F || a.variance_m2 <= 0.F) a.alongRay_m = a.variance_m2 = nan;
     }
     return answer("Distance",
-                  *answers.arrays(&Occupancy::distance_m, &Occupancy::variance_m2));
+                  *answers.arrays(&Occupancy::alongRay_m, &Occupancy::variance_m2));
 }
 
 py::object modality(const SharedMap& map, const std::string& name,
@@ -134,7 +134,7 @@ py::object castRay(const SharedMap& map, const py::object& origin_map,
 void bindQueries(MapClass& map) {
     using namespace py::literals;
     map.def("occupancy", &occupancy, "points_map"_a, "level"_a = 0, kOccupancyDoc);
-    map.def("distance", &distance, "points_map"_a, "level"_a = 0, kDistanceDoc);
+    map.def("along_ray", &alongRay, "points_map"_a, "level"_a = 0, kAlongRayDoc);
     map.def("modality", &modality, "name"_a, "points_map"_a, kModalityDoc);
     map.def("infer", &infer, "target"_a, "values"_a, "point_map"_a = py::none(), kInferDoc);
     const RayCastParams ray;

@@ -66,7 +66,7 @@ void occupancy(const Map& map, const std::vector<Eigen::Vector3d>& points,
     for (const Eigen::Vector3d& p : points) {
         const hgmm::Occupancy o = map.occupancy(p);
         numbers.insert(numbers.end(),
-                       {o.occupied, o.free, o.unknown, o.distance_m, o.variance_m2});
+                       {o.occupied, o.free, o.unknown, o.alongRay_m, o.variance_m2});
     }
     write(file, numbers);
 }

@@ -11,7 +11,7 @@ def same(a, b):
 
 
 def test_shapes_and_dtypes_of_answers(room, places):
-    for array in (*room.occupancy(places), *room.distance(places)):
+    for array in (*room.occupancy(places), *room.along_ray(places)):
         assert array.shape == (len(places),) and array.dtype == numpy.float32
     mean, variance, known = room.modality("warm", places)
     assert mean.dtype == variance.dtype == numpy.float64 and known.dtype == bool

@@ -11,11 +11,11 @@ from conftest import HALF_SIZES, map_of_room, pose_at, scan_room
 
 def test_room_is_free_and_its_walls_are_occupied(room):
     x = HALF_SIZES[0]
-    occupied, free, unknown, distance, variance = room.occupancy(
+    occupied, free, unknown, along_ray, variance = room.occupancy(
         [[0.5, 0.2, 0.1], [x, 0.3, 0.1], [x + 1, 0.3, 0.1]])
     assert free[0] > 0.9 and occupied[1] > 0.5 and unknown[2] > 0.9
     assert (occupied + free + unknown) == pytest.approx(1, abs=1e-6)
-    assert abs(distance[1]) < 0.05 and (variance >= 0).all()
+    assert abs(along_ray[1]) < 0.05 and (variance >= 0).all()
 
 
 def test_ray_meets_the_wall(room):
@@ -152,7 +152,7 @@ def test_info_and_repr(room):
 
 
 def test_docstrings_name_shapes():
-    for name in ("insert", "occupancy", "distance", "modality", "infer", "cast_ray", "sample",
+    for name in ("insert", "occupancy", "along_ray", "modality", "infer", "cast_ray", "sample",
                  "merge", "register", "forget"):
         assert "shape (" in getattr(hgmm.Map, name).__doc__, name
 

@@ -30,13 +30,13 @@ def test_occupancy(tmp_path, oracle, room, places):
     assert 0.2 < (here[:, 1] > 0.5).mean() < 0.9  # free and other places are among them
 
 
-def test_distance_is_that_of_occupancy_where_it_is_known(room, places):
-    distance, occupancy = room.distance(places), room.occupancy(places)
+def test_along_ray_is_that_of_occupancy_where_it_is_known(room, places):
+    along_ray, occupancy = room.along_ray(places), room.occupancy(places)
     known = (occupancy.unknown < 1) & (occupancy.variance > 0)
     assert 0.2 < known.mean() < 1
-    assert numpy.array_equal(distance.mean[known], occupancy.distance[known])
-    assert numpy.array_equal(distance.variance[known], occupancy.variance[known])
-    assert numpy.isnan(distance.mean[~known]).all() and numpy.isnan(distance.variance[~known]).all()
+    assert numpy.array_equal(along_ray.mean[known], occupancy.along_ray[known])
+    assert numpy.array_equal(along_ray.variance[known], occupancy.variance[known])
+    assert numpy.isnan(along_ray.mean[~known]).all() and numpy.isnan(along_ray.variance[~known]).all()
 
 
 def test_modality(tmp_path, oracle, room, places):

@@ -85,7 +85,7 @@ std::vector<unsigned char> answersOf(const Map& map, std::uint64_t seed) {
         const Eigen::Vector3d to(x(random), y(random), z(random));
         const std::size_t level = q % 4 == 0 ? map.levelCount() - 1 : 0;
         const Occupancy o = map.occupancy(p, level);
-        for (const float v : {o.occupied, o.free, o.unknown, o.distance_m, o.variance_m2})
+        for (const float v : {o.occupied, o.free, o.unknown, o.alongRay_m, o.variance_m2})
             put(v);
         for (const double v : map.occupancyGradient(p)) put(v);
         put(map.logDensity(p));

@@ -38,7 +38,7 @@ TEST(OccupancyOfAWall, OccupiedOnItFreeBeforeUnknownBehind) {
         EXPECT_GT(map.occupancy({4, y, z}).variance_m2, 0);
         const Occupancy before = map.occupancy({3.7, y, z});
         EXPECT_GT(before.variance_m2, 0);
-        worstDistance = std::max(worstDistance, std::abs(before.distance_m - 0.3));
+        worstDistance = std::max(worstDistance, std::abs(before.alongRay_m - 0.3));
     }
     std::cout << "wall: " << 100 * on.share(on.occupied) << " % occupied on it, "
               << 100 * ten.share(ten.free) << " % free 10 cm before, "

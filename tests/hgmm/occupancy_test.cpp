@@ -30,7 +30,7 @@ void expectSane(const Occupancy& o) {
     ASSERT_TRUE(o.occupied >= 0 && o.occupied <= 1 && o.free >= 0 && o.free <= 1 &&
                 o.unknown >= 0 && o.unknown <= 1);
     ASSERT_NEAR(o.occupied + o.free + o.unknown, 1, 1e-6);
-    ASSERT_TRUE(std::isfinite(o.distance_m));
+    ASSERT_TRUE(std::isfinite(o.alongRay_m));
     ASSERT_TRUE(std::isfinite(o.variance_m2));
     ASSERT_GE(o.variance_m2, 0);
 }
@@ -64,7 +64,7 @@ TEST(Occupancy, IsUnknownWhereThereIsNothingAndForBadPoints) {
                 const Occupancy o = room().occupancy(p, level);
                 expectSane(o);
                 EXPECT_EQ(o.unknown, 1.F) << p.transpose();
-                EXPECT_EQ(o.distance_m, 0.F);
+                EXPECT_EQ(o.alongRay_m, 0.F);
                 EXPECT_TRUE(room().occupancyGradient(p, level).isZero());
             }
         }
@@ -160,7 +160,7 @@ TEST(Occupancy, FarFromTheOriginIsTheSame) {
         const Occupancy a = here.occupancy(p), b = there.occupancy(p + far);
         ASSERT_NEAR(a.occupied, b.occupied, 1e-4);
         ASSERT_NEAR(a.free, b.free, 1e-4);
-        ASSERT_NEAR(a.distance_m, b.distance_m, 1e-3);
+        ASSERT_NEAR(a.alongRay_m, b.alongRay_m, 1e-3);
     }
     const auto a = here.castRay({0, 0, 1}, {1, 0.2, 0.1});
     const auto b = there.castRay(far + Eigen::Vector3d(0, 0, 1), {1, 0.2, 0.1});

@@ -7,6 +7,7 @@
 
 #include <limits>
 #include <set>
+#include <stdexcept>
 #include <thread>
 
 #include "laser_room.h"
@@ -222,6 +223,30 @@ TEST(Matching, SquareDistanceIsThatToTheNearestWall) {
         std::isinf(CHGMMOccupancyMap().squareDistanceToClosestCorrespondence(0, 0)));
     EXPECT_TRUE(std::isinf(laser_room::map().squareDistanceToClosestCorrespondence(
         std::numeric_limits<float>::quiet_NaN(), 0)));
+}
+
+TEST(Matching, DistanceToSurfaceIsThatOfTheModel) {
+    const CHGMMOccupancyMap map = laser_room::map();
+    for (const double x : {-3.7, -2.0, 1.0, 3.0}) {
+        const mrpt::math::TPoint3D p(x, 0.4, 0.3);
+        const hgmm::SurfaceDistance expected = map.model().distance({p.x, p.y, p.z});
+        double distance = 0, alone = 0, stdDev = 0;
+        mrpt::math::TVector3D gradient;
+        EXPECT_TRUE(map.getDistanceToSurface(p, distance, gradient, stdDev));
+        EXPECT_TRUE(map.getDistanceToSurface(p, alone));
+        EXPECT_EQ(distance, expected.distance_m);
+        EXPECT_EQ(alone, distance);
+        EXPECT_EQ(gradient.x, expected.gradient.x());
+        EXPECT_EQ(gradient.y, expected.gradient.y());
+        EXPECT_EQ(gradient.z, expected.gradient.z());
+        EXPECT_EQ(stdDev, expected.std_m);
+        EXPECT_GT(stdDev, 0.0);
+    }
+    double distance = 0;
+    EXPECT_FALSE(map.getDistanceToSurface({0, 0, 0.2}, distance, 0.5));
+    EXPECT_EQ(distance, 0.5) << "the cut-off";
+    EXPECT_THROW(map.getDistanceToSurface({0, 0, 0.2}, distance, -1.0),
+                 std::invalid_argument);
 }
 
 TEST(Matching, FollowsTheMap) {

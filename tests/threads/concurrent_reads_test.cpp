@@ -52,7 +52,7 @@ std::vector<Eigen::Vector3d> points() {
 }
 
 void append(Numbers& to, const Occupancy& o) {
-    to.insert(to.end(), {o.occupied, o.free, o.unknown, o.distance_m, o.variance_m2});
+    to.insert(to.end(), {o.occupied, o.free, o.unknown, o.alongRay_m, o.variance_m2});
 }
 
 Numbers occupancies(const Map& map) {

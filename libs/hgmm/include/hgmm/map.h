@@ -9,12 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "hgmm/collision.h"
 #include "hgmm/export.h"
 #include "hgmm/mixture.h"
 #include "hgmm/modality.h"
 #include "hgmm/occupancy.h"
 #include "hgmm/params.h"
 #include "hgmm/scan.h"
+#include "hgmm/surface_distance.h"
 #include "hgmm/view_directions.h"
 
 namespace hgmm {
@@ -142,6 +144,38 @@ class HGMM_EXPORT Map {
                                   const Eigen::Vector3d& direction_map,
                                   const RayCastParams& params = {},
                                   std::size_t level = 0) const;
+
+    /// @name Distance
+    /// A component's patch is the rectangle across its thinnest axis, centred at its mean,
+    /// that reaches kPatchSigmas along each of the other two.
+    /// @{
+
+    /// Euclidean distance to the nearest patch of a level, however it is seen. A point that
+    /// is not finite has no answer. Throws std::out_of_range for a level that does not
+    /// exist and std::invalid_argument for params out of range.
+    SurfaceDistance distance(const Eigen::Vector3d& point_map,
+                             const DistanceParams& params = {},
+                             std::size_t level = 0) const;
+    /// The same for n points, on all threads: answers are those of single queries, bit for
+    /// bit.
+    void distance(const Eigen::Vector3d* points_map, std::size_t n,
+                  SurfaceDistance* answers, const DistanceParams& params = {},
+                  std::size_t level = 0) const;
+    /// The same in the horizontal plane, where patches are line segments: for maps of
+    /// planar lasers. Heights do not matter, and the gradient is horizontal.
+    SurfaceDistance horizontalDistance(const Eigen::Vector2d& point_map,
+                                       const DistanceParams& params = {},
+                                       std::size_t level = 0) const;
+
+    /// Whether a body at rest or in motion meets a surface (Collision). Throws
+    /// std::invalid_argument for a body whose numbers are not finite or whose radius or
+    /// half edges are negative, or params out of range, and std::out_of_range for a level
+    /// that does not exist.
+    Collision collision(const Capsule& body_map, const CollisionParams& params = {},
+                        std::size_t level = 0) const;
+    Collision collision(const OrientedBox& body_map, const CollisionParams& params = {},
+                        std::size_t level = 0) const;
+    /// @}
 
     /// @name Modalities (thesis chapter 5)
     /// @{

@@ -14,8 +14,8 @@ struct Occupancy {
     float unknown = 1.F;   ///< never seen, or behind a surface, in [0, 1]
 
     /// E[W | x] [m]: distance to the surface along the rays that saw x, thesis eq. (4.17).
-    /// Without meaning where unknown is 1; 0 there.
-    float distance_m = 0.F;
+    /// Without meaning where unknown is 1; 0 there. Map::distance is the Euclidean one.
+    float alongRay_m = 0.F;
     /// Var[W | x] [m^2], thesis eq. (4.18), >= 0.
     float variance_m2 = 0.F;
 

@@ -1,27 +1,15 @@
 #include <cmath>
 #include <limits>
-#include <string>
 #include <vector>
 
 #include "hgmm/map.h"
 #include "hgmm/params.h"
 #include "io/coverage_codec.h"
+#include "map/chunks.h"
 #include "map/model.h"
+#include "map/require_level.h"
 
 namespace hgmm {
-
-namespace {
-
-/// Points handled by one task.
-constexpr std::size_t kPointsPerChunk = 256;
-
-void requireLevel(std::size_t level, std::size_t count) {
-    if (level >= count)
-        throw std::out_of_range("Map: no level " + std::to_string(level) + ", only 0 to " +
-                                std::to_string(count - 1));
-}
-
-}  // namespace
 
 std::size_t Map::levelCount() const {
     return static_cast<std::size_t>(params().hierarchy.levels);
@@ -80,12 +68,10 @@ void Map::occupancy(const Eigen::Vector3d* points_map, std::size_t n, Occupancy*
         return;
     }
     const OccupancyModel& model = state_->cache.occupancy(level);
-#pragma omp parallel for schedule(dynamic)
-    for (std::size_t chunk = 0; chunk < (n + kPointsPerChunk - 1) / kPointsPerChunk;
-         ++chunk)
-        for (std::size_t i = chunk * kPointsPerChunk;
-             i < std::min(n, (chunk + 1) * kPointsPerChunk); ++i)
+    forEachChunk(n, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
             answers[i] = model.at(points_map[i] - origin());
+    });
 }
 
 Eigen::Vector3d Map::occupancyGradient(const Eigen::Vector3d& point_map,

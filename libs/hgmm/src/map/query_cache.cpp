@@ -38,6 +38,15 @@ void QueryCache::Indices::update(const Mixture<3>& base, std::uint32_t i) {
     pyramid.update(i, mean);
 }
 
+std::size_t QueryCache::Level::liveBytes() const {
+    std::size_t bytes = viewDirections.size() * 4 * sizeof(float) +
+                        free.size() * sizeof(float) * (1 + 4 + Mixture<4>::packed);
+    if (const OccupancyModel* made = occupancy.ready()) bytes += made->liveBytes();
+    if (const PatchTree<2>* made = patches2D.ready()) bytes += made->liveBytes();
+    if (const PatchTree<3>* made = patches3D.ready()) bytes += made->liveBytes();
+    return bytes;
+}
+
 void QueryCache::Indices::truncate(std::size_t n) {
     components.truncate(n);
     grid.truncate(n);
@@ -111,6 +120,21 @@ const OccupancyModel& QueryCache::occupancy(std::size_t level) const {
     return levelAt(level).occupancy.get([this, level] { return makeOccupancy(level); });
 }
 
+template <int D>
+const PatchTree<D>& QueryCache::patches(std::size_t level) const {
+    const auto make = [this, level] {
+        return std::make_unique<PatchTree<D>>(level == 0 ? model_.components.surfaces()
+                                                         : mixture(level));
+    };
+    if constexpr (D == 2)
+        return levelAt(level).patches2D.get(make);
+    else
+        return levelAt(level).patches3D.get(make);
+}
+
+template const PatchTree<2>& QueryCache::patches<2>(std::size_t) const;
+template const PatchTree<3>& QueryCache::patches<3>(std::size_t) const;
+
 std::unique_ptr<OccupancyModel> QueryCache::makeOccupancy(std::size_t level) const {
     const bool isBase = level == 0;
     const Mixture<3>& surfaces = isBase ? model_.components.surfaces() : mixture(level);
@@ -136,6 +160,9 @@ void QueryCache::apply(const Changes& changes,
     }
     auto* levels = levels_.value();
     if (levels == nullptr) return;
+    // Made anew in a few milliseconds where they are asked for.
+    levels->front()->patches2D.reset();
+    levels->front()->patches3D.reset();
     if (OccupancyModel* base = levels->front()->occupancy.value()) {
         base->truncateSurfaces(changes.size);
         for (const std::uint32_t i : changes.updated)
@@ -161,12 +188,7 @@ std::size_t QueryCache::liveBytes() const {
         bytes += indices_.ready()->components.liveBytes() +
                  indices_.ready()->grid.liveBytes() + indices_.ready()->pyramid.liveBytes();
     if (levels_.ready() == nullptr) return bytes;
-    for (const auto& level : *levels_.ready()) {
-        if (const OccupancyModel* occupancy = level->occupancy.ready())
-            bytes += occupancy->liveBytes();
-        bytes += level->viewDirections.size() * 4 * sizeof(float) +
-                 level->free.size() * sizeof(float) * (1 + 4 + Mixture<4>::packed);
-    }
+    for (const auto& level : *levels_.ready()) bytes += level->liveBytes();
     return bytes;
 }
 

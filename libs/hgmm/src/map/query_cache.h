@@ -12,6 +12,7 @@
 #include "map/component_store.h"
 #include "map/levels.h"
 #include "occupancy/occupancy_model.h"
+#include "occupancy/patch_tree.h"
 
 namespace hgmm {
 
@@ -37,6 +38,9 @@ class QueryCache {
     const Mixture<4>& freeMixture(std::size_t level) const;
     const Coverage& coverage(std::size_t level) const;
     const OccupancyModel& occupancy(std::size_t level) const;
+    /// Of any level. D = 2: those of horizontal marginals.
+    template <int D>
+    const PatchTree<D>& patches(std::size_t level) const;
 
     /// Follows the model. Not for concurrent use, as the model's changes are not.
     /// @param updatedFree rows of the free-space mixture that were altered or added, rising
@@ -62,6 +66,10 @@ class QueryCache {
         Coverage coverage;
         bool hasFeatures = false;  ///< the above are there; upper levels only
         Lazy<OccupancyModel> occupancy;
+        Lazy<PatchTree<2>> patches2D;
+        Lazy<PatchTree<3>> patches3D;
+
+        std::size_t liveBytes() const;
     };
 
     const Indices& indices() const;

@@ -252,11 +252,11 @@ OccupancyModel::Answer<T> OccupancyModel::answer(const T* x) const {
     const double weight =
         valueOf(s.occupied) + valueOf(s.atHits.density) + c * valueOf(s.passed.density);
     if (!(weight > 1e-300)) return answer;
-    answer.distance_m =  // thesis eq. (4.17)
+    answer.alongRay_m =  // thesis eq. (4.17)
         (s.atHits.distance + c * s.passed.distance) / weight;
     answer.variance_m2 =  // thesis eq. (4.18)
         std::max(0.0, (s.atHits.squaredDistance + c * s.passed.squaredDistance) / weight -
-                          square(answer.distance_m));
+                          square(answer.alongRay_m));
     return answer;
 }
 
@@ -268,7 +268,7 @@ Occupancy OccupancyModel::at(const Eigen::Vector3d& point) const {
     result.free =
         std::min(static_cast<float>(std::clamp(a.free, 0.0, 1.0)), 1.F - result.occupied);
     result.unknown = std::max(0.F, 1.F - result.occupied - result.free);
-    result.distance_m = static_cast<float>(a.distance_m);
+    result.alongRay_m = static_cast<float>(a.alongRay_m);
     result.variance_m2 = static_cast<float>(a.variance_m2);
     return result;
 }

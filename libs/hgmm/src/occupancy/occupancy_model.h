@@ -105,7 +105,7 @@ class OccupancyModel {
     template <typename T>
     struct Answer {
         T occupied = 0.0, free = 0.0;  ///< probabilities
-        double distance_m = 0.0, variance_m2 = 0.0;
+        double alongRay_m = 0.0, variance_m2 = 0.0;
     };
     struct Bounds {
         std::array<float, 3> low, high;  ///< [m]

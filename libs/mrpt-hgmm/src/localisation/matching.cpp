@@ -86,8 +86,4 @@ float CHGMMOccupancyMap::compute3DMatchingRatio(const CMetricMap* otherMap,
     return results.correspondencesRatio;
 }
 
-float CHGMMOccupancyMap::squareDistanceToClosestCorrespondence(float x0, float y0) const {
-    return caches_.matching().squaredDistance(model_, x0, y0);
-}
-
 }  // namespace mrpt::maps

@@ -1,7 +1,6 @@
 #include "localisation/surface_matching.h"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 #include <tuple>
 #include <type_traits>
@@ -139,14 +138,6 @@ template void SurfaceMatching::match<3>(const Map&, const PointsView&,
                                         const mrpt::maps::TMatchingParams&,
                                         mrpt::tfest::TMatchingPairList&,
                                         mrpt::maps::TMatchingExtraResults&) const;
-
-float SurfaceMatching::squaredDistance(const Map& map, float x, float y) const {
-    const auto projection =
-        surfacesOf<2>(map)->nearest({static_cast<float>(double(x) - map.origin().x()),
-                                     static_cast<float>(double(y) - map.origin().y())});
-    return projection ? projection->squaredDistance_m2
-                      : std::numeric_limits<float>::infinity();
-}
 
 void SurfaceMatching::invalidate() {
     const std::lock_guard<std::mutex> lock(mutex_);

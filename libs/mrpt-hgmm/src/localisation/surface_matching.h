@@ -58,10 +58,6 @@ class SurfaceMatching {
                mrpt::tfest::TMatchingPairList& pairs,
                mrpt::maps::TMatchingExtraResults& results) const;
 
-    /// Squared horizontal distance from a point of the map frame to the nearest surface
-    /// [m^2]; infinity if the map is empty or the point not finite.
-    float squaredDistance(const Map& map, float x, float y) const;
-
     template <int D>
     using SharedSurfaces = std::shared_ptr<const SurfaceProjection<D>>;
     /// The surfaces of a map, in its local frame; made here, if they are not yet.

@@ -146,6 +146,22 @@ class CHGMMOccupancyMap : public CMetricMap, public ::hgmm::mrpt_bridge::Nearest
                  mrpt::math::TPoint3D& end, bool ignoreUnknownCells = false,
                  double maxRange = -1.0) const;
 
+    /// The way to the nearest surface (::hgmm::Map::distance).
+    /// @param point in the map frame [m]
+    /// @param distance Euclidean [m]; maxDistance if no surface is as near
+    /// @param gradient of the distance: the unit vector away from the surface; zero on it,
+    /// and if no surface is near
+    /// @param stdDev standard deviation of the distance [m]; 0 if no surface is near
+    /// @param maxDistance how far to look [m], in [1e-3, 1e6]
+    /// @return whether there is a surface within maxDistance and enough hits are behind it
+    /// @throws std::invalid_argument for maxDistance out of range.
+    bool getDistanceToSurface(const mrpt::math::TPoint3D& point, double& distance,
+                              mrpt::math::TVector3D& gradient, double& stdDev,
+                              double maxDistance = 5.0) const;
+    /// The same without gradient and standard deviation.
+    bool getDistanceToSurface(const mrpt::math::TPoint3D& point, double& distance,
+                              double maxDistance = 5.0) const;
+
     /// Replaces the content of `gl_obj` by cubes of one size: set VOXEL_SET_OCCUPIED where
     /// P(occ) >= renderOptions.minOccupied and VOXEL_SET_FREESPACE where P(free) > 0.5, as
     /// renderOptions say. Colours follow gl_obj's colour and visualisation mode, as with
@@ -194,8 +210,9 @@ class CHGMMOccupancyMap : public CMetricMap, public ::hgmm::mrpt_bridge::Nearest
     float compute3DMatchingRatio(const CMetricMap* otherMap,
                                  const mrpt::poses::CPose3D& otherMapPose,
                                  const TMatchingRatioParams& params) const override;
-    /// Squared horizontal distance to the nearest surface [m^2], infinity if the map is
-    /// empty or the point not finite.
+    /// Squared horizontal distance to the nearest surface [m^2]
+    /// (::hgmm::Map::horizontalDistance), infinity if the map is empty or the point not
+    /// finite.
     float squareDistanceToClosestCorrespondence(float x0, float y0) const override;
     /// The box [m] around all surfaces, with their thickness: 2.4 standard deviations from
     /// the components' means along each principal axis. It holds all points that nn_*

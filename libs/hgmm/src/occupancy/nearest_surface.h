@@ -1,0 +1,37 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "hgmm/surface_distance.h"
+#include "occupancy/patch_tree.h"
+
+namespace hgmm {
+
+/// Answers distance queries of one thread. Successive points that are near each other cost
+/// less; answers do not depend on their order.
+template <int D>
+class NearestSurface {
+ public:
+    /// @param patches must outlive this
+    NearestSurface(const PatchTree<D>& patches, double maxDistance_m)
+        : patches_(patches), maxDistance_m_(maxDistance_m) {}
+
+    SurfaceDistance operator()(const Eigen::Matrix<double, D, 1>& point);
+
+ private:
+    const PatchTree<D>& patches_;
+    double maxDistance_m_;
+    std::uint32_t last_ = SurfaceDistance::kNone;  ///< slot of the last answer
+};
+
+extern template class NearestSurface<2>;
+extern template class NearestSurface<3>;
+
+/// Variance of the distance to a patch [m^2] in the direction of a unit vector that has
+/// these coordinates in its axes, at the patch's point `at_axes` [m].
+template <int D>
+double distanceVariance(const SurfacePatch<D>& patch,
+                        const Eigen::Matrix<double, D, 1>& direction_axes,
+                        const Eigen::Matrix<double, D, 1>& at_axes);
+
+}  // namespace hgmm
