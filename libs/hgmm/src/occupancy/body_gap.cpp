@@ -34,20 +34,20 @@ Eigen::Vector3d beyond(const Eigen::Vector3d& p, const Eigen::Vector3d& halfEdge
 /// where the segment crosses the planes of the rectangle's edges.
 double nearestShare(const Eigen::Vector3d& p, const Eigen::Vector3d& d,
                     const Eigen::Vector3d& halfEdges) {
-    std::array<double, 6> stops{0.0, 1.0};
-    std::size_t count = 2;
+    std::array<double, 6> stops{0.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+    std::size_t count = 1;
     for (int a = 1; a < 3; ++a)
         for (const double edge : {-halfEdges[a], halfEdges[a]}) {
             const double share = (edge - p[a]) / d[a];
             if (share > 0 && share < 1) stops[count++] = share;
         }
-    std::sort(stops.begin(), stops.begin() + count);
+    std::sort(stops.begin(), stops.end());
     const auto slope = [&](double share) {
         return beyond(p + share * d, halfEdges).dot(d);
     };
     double before = slope(0.0);
     if (before >= 0) return 0.0;
-    for (std::size_t i = 1; i < count; ++i) {
+    for (std::size_t i = 1; i < stops.size(); ++i) {
         const double after = slope(stops[i]);
         if (after >= 0)
             return stops[i] - (stops[i] - stops[i - 1]) * after / (after - before);
