@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "commands.h"
-#include "hgmm/evaluation/metrics_json.h"
+#include "hgmm/mrpt_bridge/output_file.h"
 #include "load.h"
 #include "parse_point.h"
 #include "query_answers.h"
@@ -47,15 +47,20 @@ QueryAnswers ask(const hgmm::Map& map, std::vector<Eigen::Vector3d> points_map,
 }  // namespace
 
 void query(const QueryOptions& options) {
+    using hgmm::mrpt_bridge::FileKind;
+    const bool toFile = !options.output.empty();
+    std::vector<std::string> inputs{options.mapFile};
+    if (!options.pointsFile.empty()) inputs.push_back(options.pointsFile);
+    hgmm::mrpt_bridge::checkOutputs(
+        {{options.output, options.json ? FileKind::json : FileKind::text}}, inputs);
     const mrpt::maps::CHGMMOccupancyMap map = loadMap(options.mapFile);
     levelOf(map.model(), options.level, options.mapFile);
     const QueryAnswers answers = ask(map.model(), pointsOf(options), options);
-    const bool toFile = !options.output.empty();
     const std::string text = options.json ? jsonLinesOf(answers)
                              : toFile     ? csvOf(answers)
                                           : listingOf(answers);
     if (toFile)
-        hgmm::evaluation::writeTextFile(options.output, text);
+        hgmm::mrpt_bridge::writeFile(options.output, text);
     else
         std::fwrite(text.data(), 1, text.size(), stdout);
 }
