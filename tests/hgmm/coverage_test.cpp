@@ -9,6 +9,7 @@
 #include "base/lattice_walk.h"
 #include "hgmm/map.h"
 #include "io/coverage_codec.h"
+#include "io/coverage_words.h"
 #include "planted_mixture.h"
 #include "scenes.h"
 

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <mrpt/maps/CHGMMOccupancyMap.h>
+#include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationPointCloud.h>
 
 #include <limits>
 #include <thread>
@@ -95,6 +97,24 @@ TEST(Likelihood, UsesAtMostMaxPointsInRange) {
     EXPECT_LT(corners, 100);
     map.likelihoodOptions.outlierRatio = 1;
     EXPECT_THROW(map.computeObservationLikelihood(*scan, far), std::exception);
+}
+
+TEST(Likelihood, ComparesFewerPointsOfPlanarLasersByDefault) {
+    CHGMMOccupancyMap map = roomMap();
+    map.likelihoodOptions.maxPoints = 0;
+    const CPose3D far(1e3, 0, 0, 0, 0, 0);
+    const double perPoint = std::log(map.likelihoodOptions.outlierRatio);
+    EXPECT_NEAR(map.computeObservationLikelihood(*observations::laser(), far),
+                60 * perPoint, 1e-6);
+    for (const int points : {500, 3000}) {
+        const auto cloud = mrpt::maps::CSimplePointsMap::Create();
+        for (int i = 0; i < points; ++i)
+            cloud->insertPoint(3.F, 0.001F * static_cast<float>(i), 1.F);
+        mrpt::obs::CObservationPointCloud observation;
+        observation.pointcloud = cloud;
+        EXPECT_NEAR(map.computeObservationLikelihood(observation, far),
+                    std::min(points, 1000) * perPoint, 1e-6);
+    }
 }
 
 TEST(Likelihood, PointsBeyondTheIndependentOnesDoNotMakeItSurer) {

@@ -20,6 +20,23 @@ namespace {
 using namespace hgmm::mrpt_bridge;
 namespace fs = std::filesystem;
 
+/// Root may write anywhere, so it becomes another user, who owns the folder, for a while.
+class AsOrdinaryUser {
+ public:
+    explicit AsOrdinaryUser(const std::string& folder) {
+        constexpr uid_t nobody = 65534;
+        if (user_ != 0) return;
+        EXPECT_EQ(::chown(folder.c_str(), nobody, static_cast<gid_t>(-1)), 0);
+        EXPECT_EQ(::seteuid(nobody), 0);
+    }
+    ~AsOrdinaryUser() { EXPECT_EQ(::seteuid(user_), 0); }
+    AsOrdinaryUser(const AsOrdinaryUser&) = delete;
+    AsOrdinaryUser& operator=(const AsOrdinaryUser&) = delete;
+
+ private:
+    uid_t user_ = ::geteuid();
+};
+
 class OutputFiles : public ScratchFolder {
  protected:
     void put(const std::string& name, const std::string& text) const {
@@ -212,8 +229,9 @@ TEST_F(OutputFiles, WriteDevicesAndPipesDirectly) {
 }
 
 TEST_F(OutputFiles, RefuseReadOnlyPlaces) {
-    if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+    const AsOrdinaryUser ordinary(path(""));
     put("a", "old\n");
+    EXPECT_EQ(refusal({path("a"), FileKind::text}), "");
     fs::permissions(path("a"), fs::perms::owner_read);
     EXPECT_TRUE(has(refusal({path("a"), FileKind::text}), "cannot be written"));
     fs::create_directories(path("closed"));

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "hgmm/distance.h"
 #include "hgmm/em.h"
+#include "hgmm/joint_moments.h"
 #include "hgmm/regression.h"
 
 namespace replay {

@@ -9,6 +9,7 @@
 #include "base/byte_stream.h"
 #include "hgmm/map.h"
 #include "io/bit_coder.h"
+#include "io/coverage_words.h"
 
 namespace hgmm {
 
@@ -21,10 +22,6 @@ using Blocks = LatticeTable<Word>;
 /// of half its edge.
 constexpr std::size_t kContexts = 3 * 1024;
 constexpr int kMostLevels = 14;
-constexpr std::int32_t kFarthestCorner = 1000000000;
-constexpr int kMostOctave = 40;
-/// In place of the number of octaves: plain words follow.
-constexpr std::uint8_t kPlain = 255;
 /// Damaged data must not ask for memory without end: real blocks take a byte each.
 constexpr std::uint64_t kMostBlocksPerByte = 64;
 
@@ -193,43 +190,7 @@ Octave octaveOfCoverage(const Coverage& coverage, int octave) {
     return result;
 }
 
-/// A block as plain words.
-struct PlainBlock {
-    std::int32_t octave, x, y, z;
-    Word cells;
-};
-
-std::size_t readPlain(Reader reader, Coverage& coverage) {
-    const std::size_t size = reader.left();
-    const auto n = reader.get<std::uint64_t>();
-    for (std::uint64_t i = 0; i < n; ++i) {
-        const auto b = reader.get<PlainBlock>();
-        bool usable = b.cells != 0 && b.octave >= -kMostOctave && b.octave <= kMostOctave;
-        for (const std::int32_t c : {b.x, b.y, b.z})
-            usable = usable && std::abs(std::int64_t{c}) <= kFarthestCorner;
-        if (!usable) throw FormatError("saved map: a block of coverage is out of range");
-        coverage.mark(LatticeCell{b.octave, b.x, b.y, b.z}, b.cells);
-    }
-    return size - reader.left();
-}
-
 }  // namespace
-
-void writeCoverage(const Coverage& coverage, std::vector<std::uint8_t>& out) {
-    std::vector<PlainBlock> blocks;
-    blocks.reserve(coverage.blockCount());
-    coverage.forEachBlock([&](const LatticeCell& b, Word word) {
-        blocks.push_back({b.octave, b.x, b.y, b.z, word});
-    });
-    // Equal maps give equal bytes.
-    std::sort(blocks.begin(), blocks.end(), [](const PlainBlock& a, const PlainBlock& b) {
-        return std::tie(a.octave, a.z, a.y, a.x) < std::tie(b.octave, b.z, b.y, b.x);
-    });
-    Writer writer(out);
-    writer.put(kPlain);
-    writer.put(static_cast<std::uint64_t>(blocks.size()));
-    writer.put(blocks.data(), blocks.size());
-}
 
 void encodeCoverage(const Coverage& coverage, std::vector<std::uint8_t>& out) {
     Writer writer(out);
@@ -277,19 +238,18 @@ std::size_t decodeCoverage(const std::uint8_t* data, std::size_t size, Coverage&
     };
     Reader reader(data, size);
     const auto octaves = reader.get<std::uint8_t>();
-    if (octaves == kPlain) return 1 + readPlain(reader, coverage);
+    if (octaves == kCoverageWords) return 1 + readCoverageWords(reader, coverage);
     std::vector<Head> heads(octaves);
     for (Head& head : heads) {
         head.octave = reader.get<std::int8_t>();
         reader.get(head.corner.data(), 3);
         head.levels = reader.get<std::uint8_t>();
         head.blocks = reader.get<std::uint64_t>();
-        bool usable = head.levels >= 1 && head.levels <= kMostLevels &&
-                      head.blocks <= kMostBlocksPerByte * size &&
-                      std::abs(head.octave) <= kMostOctave;
-        for (const std::int32_t c : head.corner)
-            usable = usable && std::abs(std::int64_t{c}) <= kFarthestCorner;
-        if (!usable) throw FormatError("saved map: a lattice of coverage is out of range");
+        const auto& [x, y, z] = head.corner;
+        if (head.levels < 1 || head.levels > kMostLevels ||
+            head.blocks > kMostBlocksPerByte * size ||
+            !isCoverageBlock({head.octave, x, y, z}))
+            throw FormatError("saved map: a lattice of coverage is out of range");
     }
     BitDecoder decoder(reader.here(), reader.left());
     for (const Head& head : heads) {

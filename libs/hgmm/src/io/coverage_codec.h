@@ -13,12 +13,9 @@ namespace hgmm {
 /// before it, and, for a cell, how much of it is marked in the lattice of half its edge.
 void encodeCoverage(const Coverage& coverage, std::vector<std::uint8_t>& out);
 
-/// The same as plain words, for copies of maps in a particle filter: thirty times as fast,
-/// and several times as large.
-void writeCoverage(const Coverage& coverage, std::vector<std::uint8_t>& out);
-
-/// Reads what either of them wrote. Returns the bytes read. Throws std::out_of_range if the
-/// data ends too early, FormatError if it cannot be a coverage.
+/// Reads what encodeCoverage or writeCoverage (coverage_words.h) wrote. Returns the bytes
+/// read. Throws std::out_of_range if the data ends too early, FormatError if it cannot be a
+/// coverage.
 std::size_t decodeCoverage(const std::uint8_t* data, std::size_t size, Coverage& coverage);
 
 }  // namespace hgmm

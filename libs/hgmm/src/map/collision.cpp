@@ -106,12 +106,9 @@ bool reachesUnknown(const Body& body, double spacing_m, const Map& map, std::siz
     return map.occupancy(centre, level).unknown > 0.5F;
 }
 
-}  // namespace
-
 template <typename Body>
-static Collision collisionOf(const Map& map, const PatchTree<3>& patches,
-                             const Body& body_map, const CollisionParams& params,
-                             std::size_t level) {
+Collision collisionOf(const Map& map, const PatchTree<3>& patches, const Body& body_map,
+                      const CollisionParams& params, std::size_t level) {
     const Body local = moved(body_map, -map.origin());
     Collision found = withPatches(local, patches);
     if (params.unknown == UnknownSpace::occupied &&
@@ -122,6 +119,8 @@ static Collision collisionOf(const Map& map, const PatchTree<3>& patches,
     }
     return found;
 }
+
+}  // namespace
 
 Collision Map::collision(const Capsule& body_map, const CollisionParams& params,
                          std::size_t level) const {

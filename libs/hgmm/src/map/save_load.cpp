@@ -8,6 +8,7 @@
 #include "hgmm/map.h"
 #include "io/component_codec.h"
 #include "io/coverage_codec.h"
+#include "io/coverage_words.h"
 #include "io/exact_codec.h"
 #include "io/modality_archive.h"
 #include "map/model.h"

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "base/lattice_table.h"
-#include "hgmm/distance.h"
+#include "hgmm/joint_moments.h"
 #include "hgmm/mixture.h"
 #include "hgmm/params.h"
 #include "index/surface_pyramid.h"

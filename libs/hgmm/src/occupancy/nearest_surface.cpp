@@ -6,15 +6,6 @@
 namespace hgmm {
 
 template <int D>
-double distanceVariance(const SurfacePatch<D>& patch,
-                        const Eigen::Matrix<double, D, 1>& direction_axes,
-                        const Eigen::Matrix<double, D, 1>& at_axes) {
-    (void)at_axes;
-    (void)direction_axes;
-    return double(patch.normalStd_m) * double(patch.normalStd_m);
-}
-
-template <int D>
 SurfaceDistance NearestSurface<D>::operator()(const Eigen::Matrix<double, D, 1>& point) {
     SurfaceDistance answer;
     answer.distance_m = maxDistance_m_;
@@ -26,25 +17,20 @@ SurfaceDistance NearestSurface<D>::operator()(const Eigen::Matrix<double, D, 1>&
     last_ = nearest.slot;
 
     const SurfacePatch<D>& patch = patches_.patch(nearest.slot);
-    Eigen::Matrix<double, D, 1> away_axes, at_axes, direction;
-    direction.setZero();
+    Eigen::Matrix<double, D, 1> direction = Eigen::Matrix<double, D, 1>::Zero();
     for (int a = 0; a < D; ++a) {
         double along = 0;
         for (int d = 0; d < D; ++d)
             along += double(patch.axes[a][d]) * double(p[d] - patch.mean[d]);
-        at_axes[a] =
-            std::clamp(along, -double(patch.halfEdge[a]), double(patch.halfEdge[a]));
-        away_axes[a] = along - at_axes[a];
-        for (int d = 0; d < D; ++d) direction[d] += away_axes[a] * double(patch.axes[a][d]);
+        const double halfEdge = double(patch.halfEdge[a]),
+                     beyond = along - std::clamp(along, -halfEdge, halfEdge);
+        for (int d = 0; d < D; ++d) direction[d] += beyond * double(patch.axes[a][d]);
     }
     const double length = direction.norm();
     answer.distance_m =
         std::min(std::sqrt(double(nearest.squaredDistance_m2)), maxDistance_m_);
-    if (length > 0) {
-        answer.gradient.template head<D>() = direction / length;
-        away_axes /= length;
-    }
-    answer.std_m = std::sqrt(distanceVariance<D>(patch, away_axes, at_axes));
+    if (length > 0) answer.gradient.template head<D>() = direction / length;
+    answer.std_m = double(patch.normalStd_m);
     answer.component = nearest.component;
     answer.known = double(patch.support) >= kSurfaceSupport;
     return answer;
@@ -52,9 +38,5 @@ SurfaceDistance NearestSurface<D>::operator()(const Eigen::Matrix<double, D, 1>&
 
 template class NearestSurface<2>;
 template class NearestSurface<3>;
-template double distanceVariance<2>(const SurfacePatch<2>&, const Eigen::Vector2d&,
-                                    const Eigen::Vector2d&);
-template double distanceVariance<3>(const SurfacePatch<3>&, const Eigen::Vector3d&,
-                                    const Eigen::Vector3d&);
 
 }  // namespace hgmm

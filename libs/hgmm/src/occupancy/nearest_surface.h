@@ -27,11 +27,4 @@ class NearestSurface {
 extern template class NearestSurface<2>;
 extern template class NearestSurface<3>;
 
-/// Variance of the distance to a patch [m^2] in the direction of a unit vector that has
-/// these coordinates in its axes, at the patch's point `at_axes` [m].
-template <int D>
-double distanceVariance(const SurfacePatch<D>& patch,
-                        const Eigen::Matrix<double, D, 1>& direction_axes,
-                        const Eigen::Matrix<double, D, 1>& at_axes);
-
 }  // namespace hgmm

@@ -5,8 +5,8 @@
 
 #include "base/dual.h"
 #include "base/lazy.h"
-#include "hgmm/distance.h"
 #include "hgmm/gaussian.h"
+#include "hgmm/joint_moments.h"
 #include "hgmm/occupancy.h"
 #include "hgmm/regression.h"
 #include "hgmm/view_directions.h"

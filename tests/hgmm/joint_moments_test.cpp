@@ -1,4 +1,4 @@
-#include "hgmm/distance.h"
+#include "hgmm/joint_moments.h"
 
 #include <gtest/gtest.h>
 

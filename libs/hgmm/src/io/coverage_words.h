@@ -1,0 +1,26 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/byte_stream.h"
+#include "base/lattice.h"
+#include "occupancy/coverage.h"
+
+namespace hgmm {
+
+/// Stands where encoded coverage has the number of its octaves.
+constexpr std::uint8_t kCoverageWords = 255;
+
+/// Whether a saved block can be one: damaged data may say anything.
+bool isCoverageBlock(const LatticeCell& block);
+
+/// Coverage as plain words, for copies of maps in a particle filter: thirty times as fast
+/// as encoded, and several times as large.
+void writeCoverage(const Coverage& coverage, std::vector<std::uint8_t>& out);
+
+/// Reads what writeCoverage wrote, after kCoverageWords. Returns the bytes read. Throws
+/// std::out_of_range if the data ends too early, FormatError if it cannot be a coverage.
+std::size_t readCoverageWords(Reader reader, Coverage& coverage);
+
+}  // namespace hgmm
