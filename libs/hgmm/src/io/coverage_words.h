@@ -15,8 +15,8 @@ constexpr std::uint8_t kCoverageWords = 255;
 /// Whether a saved block can be one: damaged data may say anything.
 bool isCoverageBlock(const LatticeCell& block);
 
-/// Coverage as plain words, for copies of maps in a particle filter: thirty times as fast
-/// as encoded, and several times as large.
+/// Coverage as plain words, for copies of maps in a particle filter, which
+/// are made too often to be encoded.
 void writeCoverage(const Coverage& coverage, std::vector<std::uint8_t>& out);
 
 /// Reads what writeCoverage wrote, after kCoverageWords. Returns the bytes read. Throws
