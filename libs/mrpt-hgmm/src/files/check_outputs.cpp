@@ -1,3 +1,4 @@
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -27,13 +28,18 @@ FileId idOf(const struct stat& status) {
     return {status.st_dev, status.st_ino};
 }
 
+/// As open() decides it; access() asks for the user who started a set-user-id program.
+bool mayAccess(int mode, const std::string& file) {
+    return ::faccessat(AT_FDCWD, file.c_str(), mode, AT_EACCESS) == 0;
+}
+
 void requireFileOrStream(const std::string& file, const struct stat& status) {
     const char* what = nullptr;
     if (S_ISDIR(status.st_mode)) what = "a folder";
     if (S_ISBLK(status.st_mode)) what = "a block device";
     if (S_ISSOCK(status.st_mode)) what = "a socket";
     if (what) failOutput(file, std::string("is ") + what + "; give the name of a file");
-    if (::access(file.c_str(), W_OK) != 0)
+    if (!mayAccess(W_OK, file))
         failOutput(file, std::string("cannot be written: ") + std::strerror(errno));
 }
 
@@ -48,7 +54,7 @@ void requireReplaceable(const Output& output) {
 void requireFolder(const std::string& file, const std::string& target) {
     const std::string folder = folderOf(target);
     if (!fs::is_directory(folder)) failOutput(file, "there is no folder " + folder);
-    if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    if (!mayAccess(W_OK | X_OK, folder))
         failOutput(file,
                    "cannot be written: its folder: " + std::string(std::strerror(errno)));
 }
