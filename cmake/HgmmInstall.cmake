@@ -1,20 +1,38 @@
-# find_package(mrpt-hgmm) for other projects, from the prefix or from this build tree.
+# Libraries for other projects, which find them in the prefix by find_package(hgmm) and
+# find_package(mrpt-hgmm), or by the same names for pkg-config.
 include(CMakePackageConfigHelpers)
+include(HgmmPkgConfig)
 
-set(HGMM_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/mrpt-hgmm)
-configure_package_config_file(
-    ${PROJECT_SOURCE_DIR}/cmake/mrpt-hgmm-config.cmake.in
-    ${PROJECT_BINARY_DIR}/mrpt-hgmm-config.cmake
-    INSTALL_DESTINATION ${HGMM_CONFIG_DIR})
-write_basic_package_version_file(
-    ${PROJECT_BINARY_DIR}/mrpt-hgmm-config-version.cmake COMPATIBILITY SameMinorVersion)
-install(FILES
-    ${PROJECT_BINARY_DIR}/mrpt-hgmm-config.cmake
-    ${PROJECT_BINARY_DIR}/mrpt-hgmm-config-version.cmake
-    DESTINATION ${HGMM_CONFIG_DIR})
+# hgmm_install_library(TARGET NAMESPACE COMPONENT DEPENDENCY)
+# COMPONENT is what running programs need; COMPONENT-dev is for those who compile. DEPENDENCY is
+# the target of others that the library's headers need. Headers are those of the library's folder
+# when built here, of the prefix when installed.
+function(hgmm_install_library TARGET NAMESPACE COMPONENT DEPENDENCY)
+    target_include_directories(${TARGET} PUBLIC
+        $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+        $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    set_target_properties(${TARGET} PROPERTIES
+        VERSION ${PROJECT_VERSION} SOVERSION ${HGMM_SOVERSION})
+    install(TARGETS ${TARGET} EXPORT ${TARGET}-targets
+        LIBRARY COMPONENT ${COMPONENT} NAMELINK_COMPONENT ${COMPONENT}-dev)
+    install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT ${COMPONENT}-dev)
+    hgmm_install_config(${TARGET} ${NAMESPACE} ${COMPONENT}-dev)
+    hgmm_install_pc(${TARGET} ${COMPONENT}-dev ${DEPENDENCY})
+endfunction()
 
-# Two export sets, because the core and the plugin carry different namespaces.
-install(EXPORT hgmm-core-targets NAMESPACE hgmm:: DESTINATION ${HGMM_CONFIG_DIR})
-if(HGMM_BUILD_MRPT)
-    install(EXPORT hgmm-plugin-targets NAMESPACE mrpt:: DESTINATION ${HGMM_CONFIG_DIR})
-endif()
+# What find_package(TARGET) reads.
+function(hgmm_install_config TARGET NAMESPACE COMPONENT)
+    set(CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/${TARGET})
+    configure_package_config_file(
+        ${PROJECT_SOURCE_DIR}/cmake/${TARGET}-config.cmake.in
+        ${PROJECT_BINARY_DIR}/${TARGET}-config.cmake
+        INSTALL_DESTINATION ${CONFIG_DIR})
+    write_basic_package_version_file(
+        ${PROJECT_BINARY_DIR}/${TARGET}-config-version.cmake COMPATIBILITY SameMinorVersion)
+    install(FILES
+        ${PROJECT_BINARY_DIR}/${TARGET}-config.cmake
+        ${PROJECT_BINARY_DIR}/${TARGET}-config-version.cmake
+        DESTINATION ${CONFIG_DIR} COMPONENT ${COMPONENT})
+    install(EXPORT ${TARGET}-targets NAMESPACE ${NAMESPACE}::
+        DESTINATION ${CONFIG_DIR} COMPONENT ${COMPONENT})
+endfunction()

@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
         "as ground truth. Exit codes: 0 done, 1 bad input, 2 wrong usage.",
         "hgmm-import");
     app.require_subcommand(1);
+    app.set_version_flag("--version", "hgmm-import " HGMM_VERSION);
     Arguments arguments;
     const std::vector<std::pair<std::string, MakeSource>> formats{
         {"tum", addTum(app, arguments)},      {"7scenes", addSevenScenes(app, arguments)},
