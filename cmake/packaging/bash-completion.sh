@@ -14,8 +14,7 @@ cd "$folder"
     cat <<'BASH'
 # Made from what the programs print for --help.
 _mrpt_hgmm() {
-    local word=${COMP_WORDS[COMP_CWORD]} command words
-    command=$(basename -- "$1")
+    local word=${COMP_WORDS[COMP_CWORD]} command=${1##*/} words=
     [[ $COMP_CWORD -eq 1 ]] || command+=" ${COMP_WORDS[1]}"
     case $command in
 BASH
@@ -24,7 +23,7 @@ BASH
         for subcommand in $subcommands; do
             echo "    '$program $subcommand') words='$(optionsOf "$program" "$subcommand" | xargs)' ;;"
         done
-        echo "    $program*) words='$(echo $subcommands $(optionsOf "$program"))' ;;"
+        echo "    $program | '$program '*) words='$(echo $subcommands $(optionsOf "$program"))' ;;"
     done
     cat <<'BASH'
     esac

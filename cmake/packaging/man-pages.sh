@@ -12,7 +12,7 @@ mkdir -p "$folder"
 
 # What whatis says: the first sentence of what --help says.
 nameOf() { # COMMAND...
-    "$@" --help | head -1 | sed -E 's/\. .*|\.$//; s/^./\l&/'
+    "$@" --help | head -1 | sed -E 's/\. .*|\.$//; s/^[A-Z][a-z]/\l&/'
 }
 
 page() { # SEE_ALSO COMMAND...
@@ -20,7 +20,8 @@ page() { # SEE_ALSO COMMAND...
     name=${command// /-}
     help2man --no-info --version-string="$version" --name="$(nameOf "${@:2}")" \
         --include=<(printf '[SEE ALSO]\n%s\n' "$1") "$command" |
-        sed -E "s/^\.TH [^ ]+/.TH ${name^^}/; s/^${command} \\\\-/${name} \\\\-/" |
+        sed -E "s/^\.TH [^ ]+/.TH ${name^^}/; s/^${command} \\\\-/${name} \\\\-/;
+            s/^(\\\\fB\\\\-.\\\\fR),(\\\\-\\\\-[^ ]+)/\1, \\\\fB\2\\\\fR/" |
         gzip -9n >"$folder/$name.1.gz"
 }
 
