@@ -43,18 +43,28 @@ function(hgmm_deb COMPONENT PACKAGE)
         DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${PACKAGE} COMPONENT ${COMPONENT})
 endfunction()
 
+# The same for a shared library, which the loader must know of.
+macro(hgmm_library_deb COMPONENT PACKAGE)
+    hgmm_deb(${COMPONENT} ${PACKAGE} SECTION libs ${ARGN})
+    string(TOUPPER ${COMPONENT} UPPER)
+    set(CPACK_DEBIAN_${UPPER}_PACKAGE_CONTROL_EXTRA ${HGMM_PACKAGING_DIR}/triggers)
+endmacro()
+
 # The same for the Python package, which serves the one version of Python that it was built for.
 # Its scripts compile it when it is installed, and remove what was compiled.
 macro(hgmm_python_deb COMPONENT PACKAGE)
-    math(EXPR NEXT_MINOR "${Python_VERSION_MINOR} + 1")
-    hgmm_deb(${COMPONENT} ${PACKAGE} ${ARGN}
-        DEPENDS "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}~)"
-            "python3 (<< ${Python_VERSION_MAJOR}.${NEXT_MINOR}~)" python3-numpy
+    foreach(PART MAJOR MINOR)
+        get_directory_property(${PART} DIRECTORY python DEFINITION Python_VERSION_${PART})
+    endforeach()
+    math(EXPR NEXT "${MINOR} + 1")
+    hgmm_deb(${COMPONENT} ${PACKAGE} SECTION python ${ARGN}
+        DEPENDS "python3 (>= ${MAJOR}.${MINOR}~)" "python3 (<< ${MAJOR}.${NEXT}~)" python3-numpy
         RECOMMENDS python3-matplotlib)
     install(TARGETS python-core
         DESTINATION lib/python3/dist-packages/hgmm COMPONENT ${COMPONENT})
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/python/hgmm
         DESTINATION lib/python3/dist-packages COMPONENT ${COMPONENT} PATTERN __pycache__ EXCLUDE)
-    set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+    string(TOUPPER ${COMPONENT} UPPER)
+    set(CPACK_DEBIAN_${UPPER}_PACKAGE_CONTROL_EXTRA
         ${HGMM_PACKAGING_DIR}/postinst ${HGMM_PACKAGING_DIR}/prerm)
 endmacro()
