@@ -123,6 +123,8 @@ enterBase() { # FOLDER
         rm -f "$root/etc/$file"
         cp -L "/etc/$file" "$root/etc/"
     done
+    # Nothing here must outlast a crash of the machine.
+    echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/unsafe-io"
     mount -t proc proc "$root/proc"
     mount --rbind /dev "$root/dev"
     mount --bind "$work/archives" "$root/var/cache/apt/archives"
