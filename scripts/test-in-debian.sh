@@ -185,6 +185,7 @@ tryPackages() {
 enterBase "$work/root"
 if [[ $what == demo || $what == all ]]; then try demo; fi
 if [[ $what == test || $what == all ]]; then try test; fi
-inside dpkg-query -W libmrpt-dev g++ cmake libgtest-dev || true
 if [[ $what == packages || $what == all ]]; then tryPackages; fi
+root=$work/root
+inside dpkg-query -W libmrpt-dev g++ cmake libgtest-dev || true
 exit "$failed"
