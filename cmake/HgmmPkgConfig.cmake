@@ -32,16 +32,17 @@ function(hgmm_flags_of TARGET CFLAGS LIBS)
     set(${LIBS} "${NAMES}" PARENT_SCOPE)
 endfunction()
 
-# hgmm_install_pc(TARGET COMPONENT DEPENDENCY)
+# hgmm_install_pc(TARGET COMPONENT), of hgmm_install_library, whose arguments it takes.
 # A prefix may be moved; that of a package may not.
-function(hgmm_install_pc TARGET COMPONENT DEPENDENCY)
+function(hgmm_install_pc TARGET COMPONENT)
     set(PC_PREFIX ${CMAKE_INSTALL_PREFIX})
     if(NOT HGMM_PACKAGES)
         file(RELATIVE_PATH UP ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
         string(REGEX REPLACE "/$" "" PC_PREFIX "\${pcfiledir}/${UP}")
     endif()
-    hgmm_flags_of(${DEPENDENCY} DEPENDENCY_CFLAGS DEPENDENCY_LIBS)
-    configure_file(${PROJECT_SOURCE_DIR}/cmake/${TARGET}.pc.in ${PROJECT_BINARY_DIR}/${TARGET}.pc @ONLY)
+    hgmm_flags_of("${ARG_FLAGS_OF}" FLAGS_CFLAGS FLAGS_LIBS)
+    list(JOIN ARG_REQUIRES " " ARG_REQUIRES)
+    configure_file(${PROJECT_SOURCE_DIR}/cmake/library.pc.in ${PROJECT_BINARY_DIR}/${TARGET}.pc @ONLY)
     install(FILES ${PROJECT_BINARY_DIR}/${TARGET}.pc
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT ${COMPONENT})
 endfunction()

@@ -53,6 +53,9 @@ hgmm_deb(tools mrpt-hgmm-tools SECTION science
     SUMMARY "3D occupancy map made of Gaussians - programs"
     ABOUT "This package has programs that make maps of recordings, and query and export"
         "them, and configurations for programs of MRPT.")
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/mrpt-hgmm-tools COMPONENT tools)
+install(FILES README.md BENCHMARK.md SECURITY.md
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/mrpt-hgmm-tools COMPONENT tools)
 hgmm_python_deb(python python3-hgmm
     SUMMARY "3D occupancy map made of Gaussians - Python package"
     ABOUT "This package has the model with numpy arrays in and out. It needs no MRPT.")
