@@ -107,22 +107,20 @@ void OccupancyModel::updateSurface(std::uint32_t i, const Gaussian<3>& surface,
 
     if (i == bands_.size()) bands_.emplace_back();
     bands_.at(i) = band;
-    const Eigen::Vector3d extent = ellipsoidExtent(surface);
-    extents_.resize(bands_.size());
-    extents_[i] = boxAround(surface.mean, surface.mean, extent);
-    bounds_.reset();
-    surfaceBoxes_.update(i, extents_[i]);
     const Eigen::Vector3d front = (view.known() ? band.reach_m : 0.F) * view.direction;
     const Eigen::Vector3d back = (view.known() ? -band.side_m : 0.F) * view.direction;
-    bandBoxes_.update(i, boxAround(surface.mean + back, surface.mean + front, extent));
+    boxes_.resize(bands_.size());
+    boxes_[i] =
+        boxAround(surface.mean + back, surface.mean + front, ellipsoidExtent(surface));
+    bandBoxes_.update(i, boxes_[i]);
+    bounds_.reset();
 }
 
 void OccupancyModel::truncateSurfaces(std::size_t n) {
     bandBoxes_.truncate(n);
-    surfaceBoxes_.truncate(n);
     if (bands_.size() <= n) return;
     bands_.resize(n);
-    extents_.resize(n);
+    boxes_.resize(n);
     bounds_.reset();
 }
 
@@ -285,8 +283,8 @@ Eigen::Vector3d OccupancyModel::gradient(const Eigen::Vector3d& point) const {
 
 std::size_t OccupancyModel::liveBytes() const {
     return bands_.capacity() * sizeof(Band) + freeJoints_.capacity() * sizeof(Joint) +
-           extents_.capacity() * sizeof(BoxIndex::Box) + bandBoxes_.liveBytes() +
-           surfaceBoxes_.liveBytes() + freeBoxes_.liveBytes();
+           boxes_.capacity() * sizeof(BoxIndex::Box) + bandBoxes_.liveBytes() +
+           freeBoxes_.liveBytes();
 }
 
 }  // namespace hgmm

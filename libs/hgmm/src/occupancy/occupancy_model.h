@@ -11,6 +11,7 @@
 #include "hgmm/regression.h"
 #include "hgmm/view_directions.h"
 #include "index/box_index.h"
+#include "index/component_index.h"
 #include "occupancy/coverage.h"
 #include "occupancy/free_space.h"
 #include "occupancy/sides.h"
@@ -55,9 +56,11 @@ class OccupancyModel {
     /// Gradient of Occupancy::occupied [1/m].
     Eigen::Vector3d gradient(const Eigen::Vector3d& point) const;
     /// As Map::castRay. `direction` is a unit vector.
+    /// @param surfaces index of the components that were entered, of kSigmas
     std::optional<RayHit> castRay(const Eigen::Vector3d& origin,
                                   const Eigen::Vector3d& direction,
-                                  const RayCastParams& params) const;
+                                  const RayCastParams& params,
+                                  const ComponentIndex& surfaces) const;
 
     std::size_t liveBytes() const;
 
@@ -132,7 +135,7 @@ class OccupancyModel {
                                         const Eigen::Vector3d& direction) const;
     std::vector<Interval> intervals(const Eigen::Vector3d& origin,
                                     const Eigen::Vector3d& direction, double from_m,
-                                    double to_m) const;
+                                    double to_m, const ComponentIndex& surfaces) const;
     std::optional<double> firstOccupied(const Eigen::Vector3d& origin,
                                         const Eigen::Vector3d& direction,
                                         const Interval& interval, double minOccupied) const;
@@ -147,11 +150,10 @@ class OccupancyModel {
     double sharpness_;       ///< of extents against thickness
     std::vector<Band> bands_;
     std::vector<Joint> freeJoints_;
-    BoxIndex bandBoxes_;     ///< surfaces with their bands
-    BoxIndex surfaceBoxes_;  ///< surfaces alone, for rays
+    std::vector<BoxIndex::Box> boxes_;  ///< of bands, kSigmas to each side
+    BoxIndex bandBoxes_;                ///< who is in boxes_
     BoxIndex freeBoxes_;
-    std::vector<BoxIndex::Box> extents_;  ///< of surfaces, kSigmas to each side
-    mutable Lazy<Bounds> bounds_;         ///< of all extents
+    mutable Lazy<Bounds> bounds_;  ///< of all boxes_
 };
 
 }  // namespace hgmm
