@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/power_of_two.h"
+#include "index/cell_order.h"
 
 namespace hgmm {
 
@@ -63,6 +64,15 @@ class BoxIndex {
     template <typename Visitor>
     void visitAlongRay(const float* start, const float* direction, float length,
                        Visitor&& visit) const;
+
+    /// The same for points that follow each other in few cells: calls visit(i, first, last)
+    /// for each box in whose cells the points first to last - 1 lie. A point's boxes
+    /// come in the order that it gets them in alone.
+    template <typename Visitor>
+    void visitCandidates(const CellOrder& points, std::size_t begin, std::size_t end,
+                         Visitor&& visit) const;
+    /// Octave of the smallest cells in use; 0 if there are none.
+    int smallestOctave() const { return usedOctaveCount_ > 0 ? usedOctaves_[0] : 0; }
 
     /// Heap held [bytes].
     std::size_t liveBytes() const;
@@ -196,6 +206,28 @@ void BoxIndex::visitCandidates(float x, float y, float z, Visitor&& visit) const
         if (slot == nullptr) continue;
         const std::uint32_t* member = membersOf(*slot);
         for (std::uint32_t k = 0; k < slot->count; ++k) visit(member[k]);
+    }
+}
+
+template <typename Visitor>
+void BoxIndex::visitCandidates(const CellOrder& points, std::size_t begin, std::size_t end,
+                               Visitor&& visit) const {
+    for (int o = 0; o < usedOctaveCount_; ++o) {
+        const int octave = usedOctaves_[o];
+        const float scale = perCell(octave);
+        const auto keyAt = [&](std::size_t k) {
+            return keyOf(octave, cellOf(points.x[k], scale), cellOf(points.y[k], scale),
+                         cellOf(points.z[k], scale));
+        };
+        std::uint64_t key = begin < end ? keyAt(begin) : kUnused;
+        for (std::size_t first = begin, last = begin; first < end; first = last) {
+            const std::uint64_t cell = key;
+            for (++last; last < end && (key = keyAt(last)) == cell;) ++last;
+            const Slot* slot = find(cell);
+            if (slot == nullptr) continue;
+            const std::uint32_t* member = membersOf(*slot);
+            for (std::uint32_t k = 0; k < slot->count; ++k) visit(member[k], first, last);
+        }
     }
 }
 

@@ -44,6 +44,14 @@ class ComponentIndex {
         boxes_.visitCandidates(x, y, z, visit);
     }
 
+    /// The same for points in the order of cells: see BoxIndex.
+    template <typename Visitor>
+    void visitCandidates(const CellOrder& points, std::size_t begin, std::size_t end,
+                         Visitor&& visit) const {
+        boxes_.visitCandidates(points, begin, end, visit);
+    }
+    int smallestOctave() const { return boxes_.smallestOctave(); }
+
     /// Calls visit(i) for each component whose ellipsoid's box the ray from `start` along
     /// the unit vector `direction` may meet within `length` [m], possibly several times.
     template <typename Visitor>
