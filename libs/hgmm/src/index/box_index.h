@@ -59,6 +59,10 @@ class BoxIndex {
     template <typename Visitor>
     void visitCandidates(float x, float y, float z, Visitor&& visit) const;
 
+    /// Whether visitCandidates may visit a box, once it is entered, at a point between two
+    /// corners.
+    bool reaches(const Box& box, const float* low, const float* high) const;
+
     /// Calls visit(i) for each box in whose cells the ray from `start` along the unit
     /// vector `direction` comes within `length` [m], possibly several times.
     template <typename Visitor>

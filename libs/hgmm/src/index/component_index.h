@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
 
@@ -60,10 +61,16 @@ class ComponentIndex {
         boxes_.visitAlongRay(start, direction, length, visit);
     }
 
+    /// Whether visitCandidates may visit a component, once it is entered, at a point of a
+    /// box.
+    bool reaches(const Gaussian<3>& component, const Eigen::AlignedBox3f& box) const;
+
     /// Heap held [bytes].
     std::size_t liveBytes() const;
 
  private:
+    BoxIndex::Box boxOf(const Gaussian<3>& inflated) const;
+
     float sigmas_;
     float inflationVariance_;
     std::vector<Factor> factors_;
