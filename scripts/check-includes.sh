@@ -64,6 +64,7 @@ above() {
 }
 above libs/hgmm '^(hgmm/(evaluation|slam|mrpt_bridge)|nlohmann|CLI)/'
 above libs/mrpt-hgmm '^(hgmm/(evaluation|slam)|nlohmann|CLI)/'
+above libs/slam '^(hgmm/evaluation|nlohmann|CLI)/'
 above libs/evaluation '^(hgmm/slam|CLI)/'
 above python '^(mrpt|hgmm/(evaluation|slam|mrpt_bridge)|nlohmann|CLI)/'
 exit $wrong
