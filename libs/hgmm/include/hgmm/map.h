@@ -100,6 +100,16 @@ class HGMM_EXPORT Map {
     /// not finite; nothing is changed then.
     std::size_t forget(const Eigen::AlignedBox3d& box_map);
 
+    /// The part of this map that answers within a box, with the same parameters and frame.
+    ///
+    /// Within the box, faces included, occupancy() of level 0 and modality(), where it is
+    /// known, are those of the whole map, bit for bit, and logDensity() but for a constant.
+    /// distance() is that of the whole map where the surface is not farther than the faces;
+    /// grow the box for more. Upper levels are made of what is kept.
+    /// @param box_map in the map frame [m]
+    /// Throws like forget().
+    Map crop(const Eigen::AlignedBox3d& box_map) const;
+
     bool empty() const;
     void clear();
 
