@@ -10,7 +10,7 @@ packages=(
     # build
     g++ cmake ninja-build ccache
     libmrpt-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libnanoflann-dev liboctomap-dev
-    libpng-dev zlib1g-dev
+    libpng-dev zlib1g-dev libceres-dev
     # Python package, its tests, its wheel and its example
     pybind11-dev python3-dev python3-numpy python3-pytest
     python3-setuptools python3-wheel python3-build python3-matplotlib
