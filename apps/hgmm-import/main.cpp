@@ -1,5 +1,6 @@
 #include <iostream>
 
+#include "../comma_lists.h"
 #include "command_line.h"
 #include "import_recording.h"
 
@@ -26,6 +27,7 @@ int main(int argc, char** argv) {
         {"kitti", addKitti(app, arguments)},  {"pcd", addPcd(app, arguments)},
         {"ply", addPly(app, arguments)},      {"simplemap", addSimpleMap(app, arguments)},
         {"rawlog", addRawlog(app, arguments)}};
+    endListsWithTheirArgument(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

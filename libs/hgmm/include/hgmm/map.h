@@ -75,7 +75,7 @@ class HGMM_EXPORT Map {
     InsertReport insert(const Scan& scan);
     /// The same for a scan whose samples are at hand, samplesOf(scan, params()): many maps
     /// can share them. Modalities learn nothing. Throws std::invalid_argument for a pose
-    /// that is not finite or not rigid.
+    /// that is not finite, farther than kMaxPosition_m or not rigid.
     InsertReport insert(const ScanSamples& scan, const Pose& T_map_sensor);
 
     /// Adds what another map knows; this map's parameters stay.
@@ -87,8 +87,9 @@ class HGMM_EXPORT Map {
     /// stay.
     ///
     /// @param T_this_other pose of the other map's frame in this one's
-    /// Throws std::invalid_argument for a pose that is not finite or not rigid; nothing
-    /// is changed then.
+    /// Throws std::invalid_argument for a pose that is not finite, farther than
+    /// kMaxPosition_m or not rigid, or that would move what the other map knows as far, or
+    /// its components beyond kMaxCoordinate_m; nothing is changed then.
     void merge(const Map& other, const Pose& T_this_other = {});
 
     /// Removes the surface components of the base level whose means lie in a box, its faces
