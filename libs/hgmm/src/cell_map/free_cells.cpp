@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "mixture/regularized.h"
@@ -19,8 +18,11 @@ constexpr int kCoarsest = -1;
 /// centres beyond a border of free cells, seen from the centre of the last of these, weighs
 /// so little that C > 1/2 here, and C < 1/2 beyond.
 constexpr double kFinestShare = 0.7;
-/// Free components gather cells in cubes of about this many cells along an edge.
-constexpr double kFreeTile = 4.0;
+/// Free components gather cells that touch occupied ones in cubes of about so many cells
+/// along an edge, and the others in larger ones.
+constexpr double kSmallTile = 4.0, kLargeTile = 16.0;
+/// Surfaces farther away than this are not looked for [cells].
+constexpr std::int32_t kFarthestSurface = 128;
 
 Eigen::Vector3d centreOf(const Cell& c, double edge_m) {
     return (Eigen::Vector3d(c[0], c[1], c[2]).array() + 0.5) * edge_m;
@@ -103,6 +105,50 @@ void appendUncovered(const LatticeCell& cell, const Coverage& coverage,
     }
 }
 
+/// To the nearest occupied one of the 26 cells around a cell [cells]; 0 if none is.
+double distanceToNeighbours(const Cell& c, const CellSet& occupied) {
+    int nearest = 4;
+    for (int k = 0; k < 27; ++k) {
+        const int x = k % 3 - 1, y = k / 3 % 3 - 1, z = k / 9 - 1;
+        const int squared = x * x + y * y + z * z;
+        if (squared < nearest && occupied.contains({c[0] + x, c[1] + y, c[2] + z}))
+            nearest = squared;
+    }
+    return nearest == 4 ? 0.0 : std::sqrt(nearest);
+}
+
+/// Half the edge of the first of growing cubes around a cell that holds an occupied one
+/// [cells].
+double distanceAround(const Cell& c, const CellSet& occupied) {
+    std::int32_t reach = 2;
+    for (; reach < kFarthestSurface; reach *= 2) {
+        const Cell low{c[0] - reach, c[1] - reach, c[2] - reach};
+        if (occupied.containsAny(low, {c[0] + reach, c[1] + reach, c[2] + reach})) break;
+    }
+    return reach;
+}
+
+/// Sums of cells by the cubes of lattices that they are in.
+struct Tiles {
+    LatticeTable<std::uint32_t> numbers;
+    std::vector<LatticeCell> lattice;
+    std::vector<Gaussian<4>> sums;
+    std::vector<Cell> firstCells;
+
+    void add(const Gaussian<4>& cell, int octave, const Cell& c) {
+        const LatticeCell tile = LatticeCell::at(cell.mean.head<3>(), octave);
+        const auto [number, isNew] =
+            numbers.tryEmplace(tile, static_cast<std::uint32_t>(sums.size()));
+        if (!isNew) {
+            sums[*number] = mergeMoments(sums[*number], cell);
+            return;
+        }
+        lattice.push_back(tile);
+        sums.push_back(cell);
+        firstCells.push_back(c);
+    }
+};
+
 }  // namespace
 
 Coverage coverageOf(const CellSet& free, double edge_m, const Pose& T_local_cells) {
@@ -126,36 +172,29 @@ Coverage coverageOf(const CellSet& free, double edge_m, const Pose& T_local_cell
     return coverage;
 }
 
-FreeSpace freeBesideSurfaces(const CellSet& occupied, const CellSet& free, double edge_m,
-                             const Pose& T_local_cells) {
-    LatticeTable<std::uint32_t> numbers;
-    std::vector<std::pair<LatticeCell, Gaussian<4>>> tiles;
-    const int octave = octaveOf(kFreeTile * edge_m);
+FreeSpace freeComponents(const CellSet& occupied, const CellSet& free, double edge_m,
+                         const Pose& T_local_cells) {
+    Tiles tiles;
+    const int small = octaveOf(kSmallTile * edge_m), large = octaveOf(kLargeTile * edge_m);
     free.forEach([&](const Cell& c) {
-        int nearest = 4;  // squared [cells^2]
-        for (int k = 0; k < 27; ++k) {
-            const int x = k % 3 - 1, y = k / 3 % 3 - 1, z = k / 9 - 1;
-            const int squared = x * x + y * y + z * z;
-            if (squared < nearest && occupied.contains({c[0] + x, c[1] + y, c[2] + z}))
-                nearest = squared;
-        }
-        if (nearest == 4) return;
+        const double distance = distanceToNeighbours(c, occupied);
         Gaussian<4> cell;
         cell.support = 1.0;
         cell.mean.head<3>() = T_local_cells.R * centreOf(c, edge_m) + T_local_cells.t;
-        cell.mean[3] = edge_m * std::sqrt(nearest);
+        cell.mean[3] = edge_m * distance;
         cell.covariance = Eigen::Matrix4d::Identity() * (edge_m * edge_m / 12);
-        const LatticeCell tile = LatticeCell::at(cell.mean.head<3>(), octave);
-        const auto [number, isNew] =
-            numbers.tryEmplace(tile, static_cast<std::uint32_t>(tiles.size()));
-        if (isNew)
-            tiles.emplace_back(tile, cell);
-        else
-            tiles[*number].second = mergeMoments(tiles[*number].second, cell);
+        tiles.add(cell, distance > 0 ? small : large, c);
     });
     FreeSpace space;
-    space.reserve(tiles.size());
-    for (const auto& [tile, sum] : tiles) space.pushBack(regularized(sum), tile.octave);
+    space.reserve(tiles.sums.size());
+    for (std::size_t i = 0; i < tiles.sums.size(); ++i) {
+        Gaussian<4> sum = tiles.sums[i];
+        if (sum.mean[3] == 0) {
+            sum.mean[3] = edge_m * distanceAround(tiles.firstCells[i], occupied);
+            sum.covariance(3, 3) = sum.mean[3] * sum.mean[3] / 4;
+        }
+        space.pushBack(regularized(sum), tiles.lattice[i].octave);
+    }
     return space;
 }
 

@@ -11,9 +11,10 @@ namespace hgmm {
 /// @param T_local_cells pose of the frame of the cells, which have edges of `edge_m`
 Coverage coverageOf(const CellSet& free, double edge_m, const Pose& T_local_cells);
 
-/// The free cells that touch occupied ones, as components over place and the distance to
-/// these: they weigh against the tails of surfaces. Farther away nothing does.
-FreeSpace freeBesideSurfaces(const CellSet& occupied, const CellSet& free, double edge_m,
-                             const Pose& T_local_cells);
+/// The free cells as components over place and the distance to surfaces: small ones beside
+/// occupied cells, where they weigh against the tails of surfaces, and large ones
+/// elsewhere, whose distance is rough.
+FreeSpace freeComponents(const CellSet& occupied, const CellSet& free, double edge_m,
+                         const Pose& T_local_cells);
 
 }  // namespace hgmm

@@ -83,7 +83,7 @@ Map Map::fromCells(const KnownCells& cells, const MapParams& params) {
         append(fitSurfaces(side, params.em),
                {side.direction, side.direction.isZero() ? 0.0 : range_m}, surfaces, views);
     model.components = ComponentStore(std::move(surfaces), std::move(views));
-    model.freeSpace = freeBesideSurfaces(occupied, free, cells.edge_m, T_local_cells);
+    model.freeSpace = freeComponents(occupied, free, cells.edge_m, T_local_cells);
     model.coverage = coverageOf(free, cells.edge_m, T_local_cells);
     return map;
 }
