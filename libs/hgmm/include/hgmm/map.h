@@ -11,6 +11,7 @@
 
 #include "hgmm/collision.h"
 #include "hgmm/export.h"
+#include "hgmm/known_cells.h"
 #include "hgmm/mixture.h"
 #include "hgmm/modality.h"
 #include "hgmm/occupancy.h"
@@ -61,6 +62,19 @@ class HGMM_EXPORT Map {
     Map& operator=(const Map& o);
     Map& operator=(Map&& o) noexcept;
     ~Map();
+
+    /// A map that knows what a map of another kind does, as one of octrees or grids:
+    /// surfaces, from the outer faces of occupied cells, seen from the side of the free
+    /// cells; coverage, which is exactly the free cells; what is unknown stays so. Throws
+    /// std::invalid_argument for malformed cells (KnownCells::validate) and as the
+    /// constructor does.
+    static Map fromCells(const KnownCells& cells, const MapParams& params = {});
+    /// A map of surfaces alone, from points that nobody knows where they were seen from:
+    /// nothing is free, and components have no view directions. Points that are not finite
+    /// are left out. Throws std::invalid_argument for points that are too far apart, and as
+    /// the constructor does.
+    static Map fromPoints(const std::vector<Eigen::Vector3d>& points_map,
+                          const MapParams& params = {});
 
     const MapParams& params() const;
     /// For scans inserted from now on. Throws like the constructor.
