@@ -75,7 +75,8 @@ class BoxIndex {
             return octave == o.octave && low == o.low && high == o.high;
         }
     };
-    /// A cell's members are pool_[begin .. begin + count); room for 1 << capacityLog2.
+    /// A cell's members are pool_[begin .. begin + count); room for 1 << capacityLog2. A
+    /// single one, as most cells have, is `begin` itself: capacityLog2 is 0.
     struct Slot {
         std::uint64_t key = kUnused;
         std::uint32_t begin = 0;
@@ -124,13 +125,18 @@ class BoxIndex {
     static void forEachCell(const Placement& p, Visitor&& visit);
     /// Counts a box in or out.
     void count(int octave, int boxes);
+    const std::uint32_t* membersOf(const Slot& slot) const {
+        return slot.capacityLog2 == 0 ? &slot.begin : pool_.data() + slot.begin;
+    }
+    std::uint32_t* membersOf(Slot& slot) {
+        return slot.capacityLog2 == 0 ? &slot.begin : pool_.data() + slot.begin;
+    }
     const Slot* find(std::uint64_t key) const;
     Slot& findOrAdd(std::uint64_t key);
     void growTable(std::size_t slots);
     std::uint32_t allocate(unsigned capacityLog2);
     void add(std::uint64_t key, std::uint32_t i);
-    /// False if it was not there.
-    bool remove(std::uint64_t key, std::uint32_t i);
+    void remove(std::uint64_t key, std::uint32_t i);
 
     Cells cells_;
     std::vector<Placement> placements_;
@@ -188,7 +194,7 @@ void BoxIndex::visitCandidates(float x, float y, float z, Visitor&& visit) const
         const Slot* slot =
             find(keyOf(octave, cellOf(x, scale), cellOf(y, scale), cellOf(z, scale)));
         if (slot == nullptr) continue;
-        const std::uint32_t* member = pool_.data() + slot->begin;
+        const std::uint32_t* member = membersOf(*slot);
         for (std::uint32_t k = 0; k < slot->count; ++k) visit(member[k]);
     }
 }
@@ -213,7 +219,7 @@ void BoxIndex::visitAlongRay(const float* start, const float* direction, float l
         for (float travelled = 0; travelled <= length;) {
             const Slot* slot = find(keyOf(octave, cell[0], cell[1], cell[2]));
             for (std::uint32_t k = 0; slot != nullptr && k < slot->count; ++k)
-                visit(pool_[slot->begin + k]);
+                visit(membersOf(*slot)[k]);
             int axis = toBoundary[0] < toBoundary[1] ? 0 : 1;
             if (toBoundary[2] < toBoundary[axis]) axis = 2;
             travelled = toBoundary[axis];

@@ -44,6 +44,14 @@ class ComponentIndex {
         boxes_.visitCandidates(x, y, z, visit);
     }
 
+    /// Calls visit(i) for each component whose ellipsoid's box the ray from `start` along
+    /// the unit vector `direction` may meet within `length` [m], possibly several times.
+    template <typename Visitor>
+    void visitAlongRay(const float* start, const float* direction, float length,
+                       Visitor&& visit) const {
+        boxes_.visitAlongRay(start, direction, length, visit);
+    }
+
     /// Heap held [bytes].
     std::size_t liveBytes() const;
 

@@ -22,7 +22,7 @@ void SurfacePyramid::count(const LatticeCell& cell, int change) {
 void SurfacePyramid::reserve(std::size_t n) {
     means_.reserve(n);
     // Most of the larger cells are shared.
-    components_.reserve(4 * n);
+    components_.reserve(3 * n);
 }
 
 void SurfacePyramid::update(std::uint32_t i, const Eigen::Vector3d& mean) {
