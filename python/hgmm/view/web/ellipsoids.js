@@ -114,13 +114,10 @@ class Ellipsoids {
 
     // How many triangles there are if balls get coarser below these sizes [pixels].
     trianglesFor(limits) {
-        const [from, to] = this.range();
-        let sum = 0;
-        for (let i = from; i < to; ++i) {
-            const size = this.sizes[i];
-            if (size > 0) sum += this.balls[this.ballFor(size, limits)].triangles;
-        }
-        return sum;
+        const [from, to] = this.range(), {sizes} = this, counts = this.balls.map(() => 0);
+        for (let i = from; i < to; ++i)
+            if (sizes[i] > 0) ++counts[this.ballFor(sizes[i], limits)];
+        return this.balls.reduce((sum, ball, k) => sum + counts[k] * ball.triangles, 0);
     }
 
     ballFor(size, limits) {
