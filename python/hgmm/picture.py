@@ -47,7 +47,8 @@ def picture_of(mixture, yaw_deg=30, pitch_deg=30, cut=0):
     squares, axes_2d = numpy.linalg.eigh(covariance[order, :2, :2])
     widths = 2 * SIGMAS * numpy.sqrt(numpy.maximum(squares, 0))
     angles = numpy.degrees(numpy.arctan2(axes_2d[:, 1, 1], axes_2d[:, 0, 1]))
-    figure, axes = picture_figure(low[:2], high[:2])
+    margin = 0.02 * (high - low)[:2].max()
+    figure, axes = picture_figure(low[:2] - margin, high[:2] + margin)
     axes.add_collection(EllipseCollection(
         widths[:, 1], widths[:, 0], angles, units="xy", offsets=seen[order, :2],
         offset_transform=axes.transData, facecolors=colours[order], edgecolors="#0003",
@@ -73,6 +74,8 @@ def main():
     asked = arguments()
     if not 0 <= asked.cut < 1:
         raise ValueError("--cut must be in [0, 1)")
+    if not numpy.isfinite([asked.yaw, asked.pitch]).all():
+        raise ValueError("--yaw and --pitch must be finite")
     picture = picture_of(Map.load(asked.map).mixture(asked.level), asked.yaw, asked.pitch,
                          asked.cut)
     write_whole(asked.output or pathlib.Path(asked.map).with_suffix(".png"), picture)
