@@ -14,6 +14,8 @@ constexpr double kReachDeviations = 3.0;
 constexpr double kLeastStd_m = 0.005;
 /// The kernel is no narrower than so many standard deviations of a pair.
 constexpr double kNarrowestKernel = 3.0;
+/// A patch is no place beside a narrower kernel [m].
+constexpr double kLeastPlace_m = 0.1;
 /// Samples that one thread sums at a time.
 constexpr std::size_t kSamplesPerChunk = 128;
 
@@ -23,18 +25,22 @@ std::array<float, 3> toPoint(const Eigen::Vector3d& p) {
 
 /// How far a patch holds a sample along an axis, from 0 to 1. Across a rectangle, as far as
 /// its normal is known: one that is as thick as it is wide, such as what a ring of a lidar
-/// drew, may face anywhere about its length. What a planar laser drew is a line in its
-/// plane, and holds across both of its thin axes.
-double holdAlong(const SurfacePatch<3>& patch, int axis, bool planar) {
-    const double width = double(patch.halfEdge[1]), length = double(patch.halfEdge[2]);
-    if (!(length > 0.0)) return 0.0;
-    if (!planar) {
-        const double thickness = kPatchSigmas * double(patch.normalStd_m);
-        return axis == 0 && width > thickness ? 1.0 - thickness / width : 0.0;
+/// drew, may face anywhere about its length. Beside a kernel that is wider than it, it is
+/// but a place, which leads samples to it. What a planar laser drew is a line in its plane,
+/// and holds across both of its thin axes.
+double holdAlong(const SurfacePatch<3>& patch, int axis, bool planar, double kernel_m) {
+    const double width_m = double(patch.halfEdge[1]), length_m = double(patch.halfEdge[2]);
+    if (!(length_m > 0.0)) return 0.0;
+    if (planar) {
+        constexpr double line = 1.0 / 8, strip = 1.0 / 4;
+        return axis == 0
+                   ? 1.0
+                   : std::clamp((strip - width_m / length_m) / (strip - line), 0.0, 1.0);
     }
-    constexpr double line = 1.0 / 8, strip = 1.0 / 4;
-    return axis == 0 ? 1.0
-                     : std::clamp((strip - width / length) / (strip - line), 0.0, 1.0);
+    if (axis > 0) return 0.0;
+    if (kernel_m > std::max(width_m, kLeastPlace_m)) return 1.0;
+    const double thickness_m = kPatchSigmas * double(patch.normalStd_m);
+    return width_m > thickness_m ? 1.0 - thickness_m / width_m : 0.0;
 }
 
 struct PlacedSample {
@@ -56,7 +62,7 @@ Vector6d addPair(const SurfacePatch<3>& patch, const PlacedSample& sample,
     const Eigen::Vector3d offset = sample.point - mean.cast<double>();
     Vector6d gradient = Vector6d::Zero();
     for (int a = 0; a < 2; ++a) {
-        const double hold = holdAlong(patch, a, sample.planar);
+        const double hold = holdAlong(patch, a, sample.planar, kernel_m);
         if (!(hold > 0.0)) continue;
         const Eigen::Map<const Eigen::Vector3f> axis(patch.axes[a].data());
         const Eigen::Vector3d n = axis.cast<double>();
