@@ -17,7 +17,7 @@ constexpr double kNarrowestKernel = 3.0;
 /// A patch is no place beside a narrower kernel [m].
 constexpr double kLeastPlace_m = 0.1;
 /// Samples that one thread sums at a time.
-constexpr std::size_t kSamplesPerChunk = 128;
+constexpr std::size_t kSamplesPerSum = 128;
 
 std::array<float, 3> toPoint(const Eigen::Vector3d& p) {
     return {float(p.x()), float(p.y()), float(p.z())};
@@ -126,13 +126,13 @@ std::vector<SamplePair> pairWithPatches(const PatchTree<3>& target,
 AlignmentSums sumTerms(const PatchTree<3>& target, const AlignmentSamples& samples,
                        const std::vector<SamplePair>& pairs, const Pose& T,
                        const SearchRadius& kernel) {
-    const std::size_t chunks = (samples.size() + kSamplesPerChunk - 1) / kSamplesPerChunk;
+    const std::size_t chunks = (samples.size() + kSamplesPerSum - 1) / kSamplesPerSum;
     std::vector<AlignmentSums> parts(chunks);
 #pragma omp parallel for schedule(static)
     for (std::int64_t c = 0; c < static_cast<std::int64_t>(chunks); ++c) {
         const auto chunk = static_cast<std::size_t>(c);
-        const std::size_t end = std::min((chunk + 1) * kSamplesPerChunk, samples.size());
-        for (std::size_t i = chunk * kSamplesPerChunk; i < end; ++i) {
+        const std::size_t end = std::min((chunk + 1) * kSamplesPerSum, samples.size());
+        for (std::size_t i = chunk * kSamplesPerSum; i < end; ++i) {
             if (pairs[i].slot == SurfaceDistance::kNone) continue;
             addPair(target.patch(pairs[i].slot), placed(samples, i, T),
                     pairs[i].squaredDistance_m2, kernel.at(samples.mean[i].norm()),

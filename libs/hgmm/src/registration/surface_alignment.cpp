@@ -18,7 +18,7 @@ constexpr double kMostCells = 1 << 20;
 /// Least distance of a sensor's samples [m].
 constexpr double kLeastRadius_m = 0.1;
 /// Smallest edge of the grid that thins samples [m].
-constexpr double kFinestCell_m = 0.05;
+constexpr double kFinestThinning_m = 0.05;
 /// A direction is held if more than this share of the pairs face it: what is below comes
 /// from errors of normals.
 constexpr double kHeldShare = 0.01;
@@ -194,7 +194,7 @@ AlignmentSamples::AlignmentSamples(const Mixture<3>& samples_sensor,
                                    std::size_t most)
     : planar(!normalOfRays_sensor.isZero()), planeNormal(normalOfRays_sensor) {
     std::vector<std::size_t> kept;
-    for (double cell_m = kFinestCell_m;; cell_m *= M_SQRT2) {
+    for (double cell_m = kFinestThinning_m;; cell_m *= M_SQRT2) {
         std::unordered_set<std::uint64_t> taken;
         kept.clear();
         for (std::size_t i = 0; i < samples_sensor.size() && kept.size() <= most; ++i) {

@@ -23,7 +23,7 @@ constexpr SearchRadius kOff{0.7, 0.15};
 /// Poses nearer than this are one place [m], [rad].
 constexpr double kSamePlace_m = 0.5, kSamePlace_rad = 0.2;
 
-struct Candidate {
+struct PlaceCandidate {
     Pose T_local_sensor;
     double score = 0.0;  ///< mean log-likelihood of the samples [nat]
 };
@@ -60,13 +60,13 @@ double scoreOf(const SurfaceLikelihood& likelihood, const AlignmentSamples& samp
 }
 
 /// Each position in its best heading, the likeliest first.
-std::vector<Candidate> ratedCandidates(const SurfaceLikelihood& likelihood,
-                                       const std::vector<Eigen::Vector3d>& positions,
-                                       const AlignmentSamples& samples, int headings) {
-    std::vector<Candidate> candidates(positions.size());
+std::vector<PlaceCandidate> ratedCandidates(const SurfaceLikelihood& likelihood,
+                                            const std::vector<Eigen::Vector3d>& positions,
+                                            const AlignmentSamples& samples, int headings) {
+    std::vector<PlaceCandidate> candidates(positions.size());
 #pragma omp parallel for schedule(static)
     for (std::int64_t k = 0; k < static_cast<std::int64_t>(positions.size()); ++k) {
-        Candidate& best = candidates[static_cast<std::size_t>(k)];
+        PlaceCandidate& best = candidates[static_cast<std::size_t>(k)];
         for (int h = 0; h < headings; ++h) {
             Pose T;
             T.R = Eigen::AngleAxisd(2.0 * M_PI * h / headings, Eigen::Vector3d::UnitZ())
@@ -78,7 +78,7 @@ std::vector<Candidate> ratedCandidates(const SurfaceLikelihood& likelihood,
     }
     std::stable_sort(
         candidates.begin(), candidates.end(),
-        [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+        [](const PlaceCandidate& a, const PlaceCandidate& b) { return a.score > b.score; });
     return candidates;
 }
 
@@ -107,7 +107,7 @@ std::optional<PoseEstimate> findInMap(const Map& map, const ScanSamples& scan,
     const AlignmentSamples more(scan.samples_sensor, scan.normalOfRays_sensor,
                                 kAligningSamples);
     const SurfaceLikelihood likelihood(map.mixture(), kKernelWidth_m, kOutlierRatio);
-    std::vector<Candidate> candidates = ratedCandidates(
+    std::vector<PlaceCandidate> candidates = ratedCandidates(
         likelihood,
         freePositions(map.freeMixture(), static_cast<std::size_t>(params.maxPositions)),
         few, params.headings);
@@ -116,7 +116,7 @@ std::optional<PoseEstimate> findInMap(const Map& map, const ScanSamples& scan,
 
     const PatchTree<3> surfaces(map.mixture());
     std::vector<SurfaceAlignment> found;
-    for (const Candidate& candidate : candidates) {
+    for (const PlaceCandidate& candidate : candidates) {
         AlignmentPrior prior;
         prior.T_target_sensor = candidate.T_local_sensor;
         prior.deviation = kOff;
