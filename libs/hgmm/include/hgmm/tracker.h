@@ -48,7 +48,9 @@ struct MotionIncrement {
 
 /// Where the sensor is.
 struct TrackedPose : PoseEstimate {
-    double overlap = 0.0;   ///< share of the scan's samples that lie on a surface, [0, 1]
+    double overlap = 0.0;  ///< share of the scan's samples that lie on a surface, [0, 1]
+    /// Share of them in space that the map knows to be free, [0, 1]; localisation only.
+    double contradicted = 0.0;
     int observable = 0;     ///< directions that the surfaces hold [count], 0 to 6
     bool lost = false;      ///< the pose is the prior's: the scan says nothing of it
     bool inserted = false;  ///< the scan is in the map; odometry only

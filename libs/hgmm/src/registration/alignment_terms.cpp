@@ -14,8 +14,10 @@ constexpr double kReachDeviations = 3.0;
 constexpr double kLeastStd_m = 0.005;
 /// The kernel is no narrower than so many standard deviations of a pair.
 constexpr double kNarrowestKernel = 3.0;
+/// A patch is no place beside a narrower kernel [m].
+constexpr double kLeastPlace_m = 0.1;
 /// Samples that one thread sums at a time.
-constexpr std::size_t kSamplesPerChunk = 128;
+constexpr std::size_t kSamplesPerSum = 128;
 
 std::array<float, 3> toPoint(const Eigen::Vector3d& p) {
     return {float(p.x()), float(p.y()), float(p.z())};
@@ -23,18 +25,22 @@ std::array<float, 3> toPoint(const Eigen::Vector3d& p) {
 
 /// How far a patch holds a sample along an axis, from 0 to 1. Across a rectangle, as far as
 /// its normal is known: one that is as thick as it is wide, such as what a ring of a lidar
-/// drew, may face anywhere about its length. What a planar laser drew is a line in its
-/// plane, and holds across both of its thin axes.
-double holdAlong(const SurfacePatch<3>& patch, int axis, bool planar) {
-    const double width = double(patch.halfEdge[1]), length = double(patch.halfEdge[2]);
-    if (!(length > 0.0)) return 0.0;
-    if (!planar) {
-        const double thickness = kPatchSigmas * double(patch.normalStd_m);
-        return axis == 0 && width > thickness ? 1.0 - thickness / width : 0.0;
+/// drew, may face anywhere about its length. Beside a kernel that is wider than it, it is
+/// but a place, which leads samples to it. What a planar laser drew is a line in its plane,
+/// and holds across both of its thin axes.
+double holdAlong(const SurfacePatch<3>& patch, int axis, bool planar, double kernel_m) {
+    const double width_m = double(patch.halfEdge[1]), length_m = double(patch.halfEdge[2]);
+    if (!(length_m > 0.0)) return 0.0;
+    if (planar) {
+        constexpr double line = 1.0 / 8, strip = 1.0 / 4;
+        return axis == 0
+                   ? 1.0
+                   : std::clamp((strip - width_m / length_m) / (strip - line), 0.0, 1.0);
     }
-    constexpr double line = 1.0 / 8, strip = 1.0 / 4;
-    return axis == 0 ? 1.0
-                     : std::clamp((strip - width / length) / (strip - line), 0.0, 1.0);
+    if (axis > 0) return 0.0;
+    if (kernel_m > std::max(width_m, kLeastPlace_m)) return 1.0;
+    const double thickness_m = kPatchSigmas * double(patch.normalStd_m);
+    return width_m > thickness_m ? 1.0 - thickness_m / width_m : 0.0;
 }
 
 struct PlacedSample {
@@ -56,7 +62,7 @@ Vector6d addPair(const SurfacePatch<3>& patch, const PlacedSample& sample,
     const Eigen::Vector3d offset = sample.point - mean.cast<double>();
     Vector6d gradient = Vector6d::Zero();
     for (int a = 0; a < 2; ++a) {
-        const double hold = holdAlong(patch, a, sample.planar);
+        const double hold = holdAlong(patch, a, sample.planar, kernel_m);
         if (!(hold > 0.0)) continue;
         const Eigen::Map<const Eigen::Vector3f> axis(patch.axes[a].data());
         const Eigen::Vector3d n = axis.cast<double>();
@@ -120,13 +126,13 @@ std::vector<SamplePair> pairWithPatches(const PatchTree<3>& target,
 AlignmentSums sumTerms(const PatchTree<3>& target, const AlignmentSamples& samples,
                        const std::vector<SamplePair>& pairs, const Pose& T,
                        const SearchRadius& kernel) {
-    const std::size_t chunks = (samples.size() + kSamplesPerChunk - 1) / kSamplesPerChunk;
+    const std::size_t chunks = (samples.size() + kSamplesPerSum - 1) / kSamplesPerSum;
     std::vector<AlignmentSums> parts(chunks);
 #pragma omp parallel for schedule(static)
     for (std::int64_t c = 0; c < static_cast<std::int64_t>(chunks); ++c) {
         const auto chunk = static_cast<std::size_t>(c);
-        const std::size_t end = std::min((chunk + 1) * kSamplesPerChunk, samples.size());
-        for (std::size_t i = chunk * kSamplesPerChunk; i < end; ++i) {
+        const std::size_t end = std::min((chunk + 1) * kSamplesPerSum, samples.size());
+        for (std::size_t i = chunk * kSamplesPerSum; i < end; ++i) {
             if (pairs[i].slot == SurfaceDistance::kNone) continue;
             addPair(target.patch(pairs[i].slot), placed(samples, i, T),
                     pairs[i].squaredDistance_m2, kernel.at(samples.mean[i].norm()),

@@ -18,7 +18,7 @@ constexpr double kMostCells = 1 << 20;
 /// Least distance of a sensor's samples [m].
 constexpr double kLeastRadius_m = 0.1;
 /// Smallest edge of the grid that thins samples [m].
-constexpr double kFinestCell_m = 0.05;
+constexpr double kFinestThinning_m = 0.05;
 /// A direction is held if more than this share of the pairs face it: what is below comes
 /// from errors of normals.
 constexpr double kHeldShare = 0.01;
@@ -111,8 +111,8 @@ class Aligner {
     }
 
     void runStage(const SearchRadius& kernel, int maxIterations) {
-        const double enough_m =
-            std::max(kSmallestStep_m, kSmallestStepShare * kernel.at(samples_.gyrationRadius_m));
+        const double enough_m = std::max(
+            kSmallestStep_m, kSmallestStepShare * kernel.at(samples_.gyrationRadius_m));
         for (int k = 0; k < maxIterations; ++k) {
             ++result_.iterations;
             const AlignmentSums sums = sumsAt(kernel);
@@ -182,12 +182,19 @@ class Aligner {
 
 }  // namespace
 
+Matrix6d covarianceOf(const SearchRadius& deviation) {
+    Vector6d variance;
+    variance << Eigen::Vector3d::Constant(deviation.angle_rad * deviation.angle_rad),
+        Eigen::Vector3d::Constant(deviation.width_m * deviation.width_m);
+    return variance.asDiagonal();
+}
+
 AlignmentSamples::AlignmentSamples(const Mixture<3>& samples_sensor,
                                    const Eigen::Vector3d& normalOfRays_sensor,
                                    std::size_t most)
     : planar(!normalOfRays_sensor.isZero()), planeNormal(normalOfRays_sensor) {
     std::vector<std::size_t> kept;
-    for (double cell_m = kFinestCell_m;; cell_m *= M_SQRT2) {
+    for (double cell_m = kFinestThinning_m;; cell_m *= M_SQRT2) {
         std::unordered_set<std::uint64_t> taken;
         kept.clear();
         for (std::size_t i = 0; i < samples_sensor.size() && kept.size() <= most; ++i) {

@@ -41,6 +41,9 @@ struct AlignmentPrior {
     SearchRadius deviation;
 };
 
+/// Of errors with these deviations along each axis.
+Matrix6d covarianceOf(const SearchRadius& deviation);
+
 struct SurfaceAlignment {
     Pose T_target_sensor;
     /// Of the error (w, v), prior included; directions that the surfaces do not hold have

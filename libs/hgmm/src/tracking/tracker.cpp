@@ -13,19 +13,21 @@ namespace hgmm {
 
 namespace {
 
-/// Where little is found, registration looks so far about the prior [m], [rad].
+/// With less of a scan found, mixtures are registered, in case it is elsewhere [1].
+constexpr double kLittle = 0.45;
+/// Registration looks so far about the prior [m], [rad].
 constexpr double kSearch_m = 0.7, kSearch_rad = 0.4;
 /// What it finds may be off by this much [m], [rad].
 constexpr SearchRadius kFound{0.1, 0.02};
+/// Samples that are asked whether they lie in space that is known to be free.
+constexpr std::size_t kAskedSamples = 200;
+/// P(free) of such space.
+constexpr float kSurelyFree = 0.8F;
+/// A given map is not where the sensor is if it calls so many times as much of a scan free
+/// as it explains [1].
+constexpr double kContradicted = 0.7;
 /// It is taken if it explains so much more of the scan [1].
 constexpr double kBetterBy = 0.05;
-
-Matrix6d covarianceOf(const SearchRadius& deviation) {
-    Vector6d variance;
-    variance << Eigen::Vector3d::Constant(deviation.angle_rad * deviation.angle_rad),
-        Eigen::Vector3d::Constant(deviation.width_m * deviation.width_m);
-    return variance.asDiagonal();
-}
 
 /// Standard deviations of position and rotation, of all axes together.
 SearchRadius deviationOf(const Matrix6d& covariance) {
@@ -73,6 +75,7 @@ struct ScanTracker::Impl {
     SurfaceAlignment align(const PoseEstimate& prior);
     SurfaceAlignment alignedFrom(const PoseEstimate& prior, const SearchRadius& off,
                                  const AlignmentSamples& few) const;
+    double shareInFreeSpace(const Pose& T_map_sensor) const;
     void renewTarget();
 
     TrackerParams params;
@@ -130,7 +133,7 @@ SurfaceAlignment ScanTracker::Impl::align(const PoseEstimate& prior) {
                                static_cast<std::size_t>(params.maxSamples));
     const SearchRadius off = wider(deviation.now(), deviationOf(prior.covariance));
     SurfaceAlignment found = alignedFrom(prior, off, few);
-    if (found.overlap < params.minOverlap) {
+    if (found.overlap < kLittle) {
         RegistrationParams search;
         search.coarseWidth_m = kSearch_m;
         search.coarseAngle_rad = kSearch_rad;
@@ -151,6 +154,21 @@ SurfaceAlignment ScanTracker::Impl::align(const PoseEstimate& prior) {
         }
     }
     return found;
+}
+
+double ScanTracker::Impl::shareInFreeSpace(const Pose& T_map_sensor) const {
+    const AlignmentSamples few(samples.samples_sensor, samples.normalOfRays_sensor,
+                               kAskedSamples);
+    if (few.size() == 0) return 0.0;
+    std::vector<Eigen::Vector3d> points_map;
+    for (const Eigen::Vector3d& m : few.mean)
+        points_map.push_back(T_map_sensor.R * m + T_map_sensor.t);
+    std::vector<Occupancy> answers(points_map.size());
+    map().occupancy(points_map.data(), points_map.size(), answers.data());
+    std::size_t inFree = 0;
+    for (const Occupancy& answer : answers)
+        if (answer.free > kSurelyFree) ++inFree;
+    return double(inFree) / double(few.size());
 }
 
 void ScanTracker::Impl::renewTarget() {
@@ -193,10 +211,13 @@ TrackedPose ScanTracker::track(const Scan& scan, double time_s,
         const SurfaceAlignment found = t.align(prior);
         now.overlap = found.overlap;
         now.observable = found.observable;
-        now.lost = found.overlap < t.params.minOverlap;
-        if (!now.lost) {
-            now.T_map_sensor = {found.T_target_sensor.R,
+        const Pose T_map_sensor{found.T_target_sensor.R,
                                 found.T_target_sensor.t + t.map().origin()};
+        if (t.given) now.contradicted = t.shareInFreeSpace(T_map_sensor);
+        now.lost = found.overlap < t.params.minOverlap ||
+                   now.contradicted > kContradicted * found.overlap;
+        if (!now.lost) {
+            now.T_map_sensor = T_map_sensor;
             now.covariance = found.covariance;
             t.deviation.learn(prior.T_map_sensor, now.T_map_sensor);
         }
