@@ -7,7 +7,7 @@
 namespace hgmm {
 namespace {
 
-Gaussian<3> patch(std::mt19937_64& random, double x0) {
+Gaussian<3> patchAt(std::mt19937_64& random, double x0) {
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     Gaussian<3> g;
     g.support = 5 + 4 * uniform(random);
@@ -19,7 +19,7 @@ Gaussian<3> patch(std::mt19937_64& random, double x0) {
 
 Mixture<3> floorPatches(std::mt19937_64& random) {
     Mixture<3> base;
-    for (int i = 0; i < 2000; ++i) base.pushBack(patch(random, i < 1000 ? 0.0 : 100.0));
+    for (int i = 0; i < 2000; ++i) base.pushBack(patchAt(random, i < 1000 ? 0.0 : 100.0));
     return base;  // two floors of more than one block each
 }
 
@@ -67,10 +67,10 @@ TEST(LevelBlocks, LocalRegenerationEqualsGeneratingAll) {
     Changes changes;
     for (int change = 0; change < 10; ++change) {
         const auto i = std::uint32_t(random() % 1000);  // in the first floor only
-        base.set(i, patch(random, 0.0));
+        base.set(i, patchAt(random, 0.0));
         changes.updated.push_back(i);
     }
-    base.pushBack(patch(random, 0.0));
+    base.pushBack(patchAt(random, 0.0));
     changes.updated.push_back(std::uint32_t(base.size() - 1));
     changes.size = base.size();
     blocks.apply(changes);
