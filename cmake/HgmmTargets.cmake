@@ -60,16 +60,6 @@ function(hgmm_precompile TARGET)
         ${ARG_UNPARSED_ARGUMENTS})
 endfunction()
 
-# Headers of a library: from its folder when built here, from the prefix when installed.
-function(hgmm_library_includes TARGET)
-    target_include_directories(${TARGET} PUBLIC
-        $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
-        $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-    set_target_properties(${TARGET} PROPERTIES
-        VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
-    install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-endfunction()
-
 # A GoogleTest program. Its cases run in shares of one process each: a process loads MRPT's
 # libraries for .4 s, longer than most cases take.
 # hgmm_test(NAME SOURCES a.cpp ... LIBRARIES lib ... [LABELS ...]

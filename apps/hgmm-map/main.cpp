@@ -126,6 +126,7 @@ CLI::App* defineOptions(CLI::App& app, maptool::OptionsOptions& listing) {
 int main(int argc, char** argv) {
     CLI::App app{"Looks into saved Gaussian mixture maps (.hgmm) and converts them."};
     app.require_subcommand(1);
+    app.set_version_flag("--version", "hgmm-map " HGMM_VERSION);
     app.footer("Exit codes: 0 done, 1 bad input, 2 wrong usage.");
 
     std::string infoFile;

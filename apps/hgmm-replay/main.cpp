@@ -150,6 +150,7 @@ ExitCode run(Options& options) {
 int main(int argc, char** argv) {
     CLI::App app{
         "Replays a recording into a hierarchical Gaussian mixture map and evaluates it."};
+    app.set_version_flag("--version", "hgmm-replay " HGMM_VERSION);
     Options options;
     bool listStudies = false;
     app.footer("Exit codes: 0 done, 1 bad input, 2 wrong usage, 130 interrupted.");

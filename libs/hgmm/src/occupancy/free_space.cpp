@@ -105,6 +105,13 @@ class ScanCells {
 
 }  // namespace
 
+int FreeSpace::pyramidOctave(const FreeSpaceParams& params) {
+    // Cells of the least range are taken whatever is near.
+    const int smallest =
+        octaveOf(params.freeCellAtOneMetre_m * std::sqrt(kSensorSurroundings_m));
+    return std::clamp(smallest + 1, SurfacePyramid::kMinOctave, SurfacePyramid::kMaxOctave);
+}
+
 std::vector<std::uint32_t> FreeSpace::insert(const std::vector<RayBundle>& bundles,
                                              const Eigen::Vector3d& sensorOrigin,
                                              const SurfacePyramid& pyramid,

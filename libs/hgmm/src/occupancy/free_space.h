@@ -25,6 +25,10 @@ using RayBundle = Gaussian<3>;
 /// band.
 class FreeSpace {
  public:
+    /// Octave of the smallest cells that insert asks a pyramid about, in the pyramid's
+    /// range.
+    static int pyramidOctave(const FreeSpaceParams& params);
+
     /// Adds the rays of one scan, in the local frame. Returns the changed components,
     /// rising; new ones come last.
     std::vector<std::uint32_t> insert(const std::vector<RayBundle>& bundles,
