@@ -8,7 +8,7 @@ namespace hgmm::fuzz {
 
 namespace {
 
-/// What SECURITY.md says of the memory that loading takes.
+/// More memory than loading should take.
 constexpr std::size_t kBytesPerByte = 4096, kBytesBesides = std::size_t{4} << 20U;
 
 }  // namespace

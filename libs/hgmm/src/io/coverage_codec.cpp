@@ -161,7 +161,7 @@ LatticeCell moved(const LatticeCell& block, const Corner& corner) {
 }
 
 /// Throws FormatError for a block that could not be moved by the corner of all.
-void requireInRange(const LatticeCell& block, const Corner& corner) {
+void requireMovable(const LatticeCell& block, const Corner& corner) {
     constexpr std::int64_t kLimit = kFarthestCoverageBlock;
     if (std::max({std::int64_t{block.x} + corner[0], std::int64_t{block.y} + corner[1],
                   std::int64_t{block.z} + corner[2]}) > kLimit)
@@ -271,7 +271,7 @@ std::size_t decodeCoverage(const std::uint8_t* data, std::size_t size, Coverage&
             blocks = Blocks();
             Models models(kContexts);
             for (const LatticeCell& block : order) {
-                if (l == 0) requireInRange(block, head.corner);
+                if (l == 0) requireMovable(block, head.corner);
                 const auto halves = halvesAt(l, coverage, moved(block, head.corner));
                 const Word cells =
                     codeBlock(blocks, block, 0, halves, models,
