@@ -9,7 +9,7 @@ set -euo pipefail
 cd "${1:-$(dirname "$0")/..}"
 
 # From the top of the pipeline to the bottom.
-folders=(tracking map io registration modality occupancy fusion scan index mixture base)
+folders=(tracking map io cell_map registration modality occupancy fusion scan index mixture base)
 wrong=0
 complain() {
     printf '%s\n' "$*" >&2

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -21,7 +22,7 @@ namespace hgmm {
 /// contiguously.
 class BoxIndex {
  public:
-    static constexpr int kMinOctave = -10, kMaxOctave = 20;
+    static constexpr int kMinOctave = -10, kMaxOctave = 30;
 
     struct Box {
         std::array<float, 3> centre{};      ///< [m]
@@ -31,7 +32,7 @@ class BoxIndex {
     /// How large cells are.
     struct Cells {
         int finer = 0;  ///< octaves below those of boxes [octave]
-        /// Boxes so small share cells of 2^leastOctave metres, in [-10, 20].
+        /// Boxes so small share cells of 2^leastOctave metres, in [-10, 30].
         int leastOctave = kMinOctave;
     };
 
@@ -113,16 +114,26 @@ class BoxIndex {
         key *= 0x9E3779B97F4A7C15ULL;
         return static_cast<std::size_t>(key ^ key >> 32U);
     }
-    /// `v` in cells of 1 / perCell metres. Beyond the limit (and for NaN) any cell will do:
-    /// nothing is indexed there.
+    /// `v` in cells of 1 / perCell metres. All that is beyond the limit shares the cells
+    /// there; NaN, which nothing is indexed at, any.
     static std::int32_t cellOf(float v, float perCell) {
-        constexpr float limit = 1 << 30;
+        constexpr std::int32_t kLimit = 1 << 30;
         const float cell = v * perCell;
-        if (!(cell > -limit && cell < limit)) return 1 << 30;
+        if (!(cell > float(-kLimit) && cell < float(kLimit)))
+            return cell < 0 ? -kLimit : kLimit;
         return floorToInt(cell);
     }
     static float perCell(int octave) { return floatPowerOfTwo(-octave); }
 
+    /// Whether a ray passes so many cells, or such far ones, that looking at all boxes is
+    /// better.
+    bool isLongFor(const float* start, float length, float perCell) const {
+        constexpr float kFarthest = 1 << 29;
+        const float farthest =
+            std::max({std::abs(start[0]), std::abs(start[1]), std::abs(start[2])}) + length;
+        return !(farthest * perCell < kFarthest) ||
+               length * perCell > 1000.F + 4.F * static_cast<float>(size());
+    }
     /// What a test of bodies says of a cell.
     template <typename Test>
     static bool holds(Test&& test, int octave, std::int32_t x, std::int32_t y,
@@ -241,18 +252,23 @@ void BoxIndex::visitAlongRay(const float* start, const float* direction, float l
     for (int o = 0; o < usedOctaveCount_; ++o) {
         const int octave = usedOctaves_[o];
         const float scale = perCell(octave);
+        if (isLongFor(start, length, scale)) {
+            for (std::uint32_t i = 0; i < size(); ++i)
+                if (placements_[i].octave == octave) visit(i);
+            continue;
+        }
         // Steps from one cell boundary to the next, along whichever axis comes first.
         std::array<std::int32_t, 3> cell{};
-        std::array<float, 3> toBoundary{}, betweenBoundaries{};
+        std::array<double, 3> toBoundary{}, betweenBoundaries{};
         for (int d = 0; d < 3; ++d) {
             cell[d] = cellOf(start[d], scale);
-            const float speed = std::abs(direction[d]) * scale;
-            betweenBoundaries[d] = speed > 1e-12F ? 1.F / speed : 1e30F;
-            const float inside = start[d] * scale - static_cast<float>(cell[d]);
+            const double speed = std::abs(double(direction[d])) * scale;
+            betweenBoundaries[d] = speed > 1e-12 ? 1.0 / speed : 1e30;
+            const double inside = double(start[d]) * scale - cell[d];
             toBoundary[d] =
-                betweenBoundaries[d] * (direction[d] > 0 ? 1.F - inside : inside);
+                betweenBoundaries[d] * (direction[d] > 0 ? 1.0 - inside : inside);
         }
-        for (float travelled = 0; travelled <= length;) {
+        for (double travelled = 0; travelled <= length;) {
             const Slot* slot = find(keyOf(octave, cell[0], cell[1], cell[2]));
             for (std::uint32_t k = 0; slot != nullptr && k < slot->count; ++k)
                 visit(membersOf(*slot)[k]);
