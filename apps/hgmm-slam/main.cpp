@@ -75,6 +75,7 @@ int main(int argc, char** argv) {
     CLI::App app{
         "Simultaneous localisation and mapping: one consistent map from a recording."};
     Options options;
+    app.set_version_flag("--version", "hgmm-slam " HGMM_VERSION);
     app.footer("Exit codes: 0 done, 1 bad input, 2 wrong usage, 130 interrupted.");
     defineOptions(app, options);
     try {
