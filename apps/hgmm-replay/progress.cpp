@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <string>
 
 namespace replay {
 
@@ -14,7 +13,7 @@ Progress::~Progress() {
     if (!quiet_ && terminal_ && done_ > 0) std::fputc('\n', stderr);
 }
 
-void Progress::advance() {
+void Progress::advance(const std::string& news) {
     ++done_;
     if (quiet_) return;
     const Clock::time_point now = Clock::now();
@@ -24,25 +23,26 @@ void Progress::advance() {
     if (terminal_) {
         if (done_ < total_ && now - drawn_ < std::chrono::milliseconds(100)) return;
         drawn_ = now;
-        drawBar(scansPerSecond);
+        drawBar(scansPerSecond, news);
     } else if (done_ * 10 / total_ != (done_ - 1) * 10 / total_) {
-        printLine(scansPerSecond);
+        printLine(scansPerSecond, news);
     }
 }
 
-void Progress::drawBar(double scansPerSecond) const {
+void Progress::drawBar(double scansPerSecond, const std::string& news) const {
     constexpr std::size_t width = 30;
     const std::size_t filled = width * done_ / total_;
     const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
-    std::fprintf(stderr, "\r[%s] %zu/%zu scans, %.1f scans/s, ETA %.0f s \033[K",
+    std::fprintf(stderr, "\r[%s] %zu/%zu scans, %.1f scans/s, ETA %.0f s%s \033[K",
                  bar.c_str(), done_, total_, scansPerSecond,
-                 static_cast<double>(total_ - done_) / scansPerSecond);
+                 static_cast<double>(total_ - done_) / scansPerSecond, news.c_str());
     std::fflush(stderr);
 }
 
-void Progress::printLine(double scansPerSecond) const {
-    std::fprintf(stderr, "%zu/%zu scans, %.1f scans/s, ETA %.0f s\n", done_, total_,
-                 scansPerSecond, static_cast<double>(total_ - done_) / scansPerSecond);
+void Progress::printLine(double scansPerSecond, const std::string& news) const {
+    std::fprintf(stderr, "%zu/%zu scans, %.1f scans/s, ETA %.0f s%s\n", done_, total_,
+                 scansPerSecond, static_cast<double>(total_ - done_) / scansPerSecond,
+                 news.c_str());
 }
 
 }  // namespace replay

@@ -1,6 +1,7 @@
 #pragma once
 #include <chrono>
 #include <cstddef>
+#include <string>
 
 namespace replay {
 
@@ -14,13 +15,14 @@ class Progress {
     Progress& operator=(const Progress&) = delete;
 
     /// One more scan is done.
-    void advance();
+    /// @param news shown behind what is told of the scans
+    void advance(const std::string& news = {});
 
  private:
     using Clock = std::chrono::steady_clock;
 
-    void drawBar(double scansPerSecond) const;
-    void printLine(double scansPerSecond) const;
+    void drawBar(double scansPerSecond, const std::string& news) const;
+    void printLine(double scansPerSecond, const std::string& news) const;
 
     std::size_t total_;
     std::size_t done_ = 0;

@@ -109,6 +109,15 @@ TEST(SubmapSlam, ScansWithoutPointsHavePosesAllTheSame) {
     EXPECT_EQ(slam.closures(), 0U);
 }
 
+TEST(SubmapSlam, RefusesScansAfterTheEnd) {
+    SubmapSlam slam;
+    slam.add({}, {}, {});
+    slam.finish();
+    slam.finish();
+    EXPECT_THROW(slam.add({}, {}, {}), std::logic_error);
+    EXPECT_EQ(slam.trajectory().size(), 1U);
+}
+
 TEST(SubmapSlam, RefusesParametersThatAreOutOfRange) {
     SlamParams params;
     params.submap.minLength_m = 0;

@@ -1,5 +1,7 @@
 #include "hgmm/slam/submap_slam.h"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <future>
@@ -102,7 +104,11 @@ struct SubmapSlam::Impl {
     void complete() {
         enterClosures();
         submaps.push_back(std::make_shared<const FinishedSubmap>(std::move(current)));
-        search = std::async(std::launch::async, closuresOf, submaps, graph, params.closure);
+        search = std::async(std::launch::async,
+                            [all = submaps, known = graph, closure = params.closure] {
+                                omp_set_num_threads(1);  // the front has the others
+                                return closuresOf(all, known, closure);
+                            });
     }
 
     /// Finishes the submap at hand and begins the next one where the robot is.
@@ -125,6 +131,10 @@ struct SubmapSlam::Impl {
 
     void enterClosures() {
         if (search.valid()) closures += pool.enter(search.get(), graph);
+    }
+
+    bool isFinished() const {
+        return started && submaps.size() == graph.T_world_node.size();
     }
 
     Pose robot() const { return graph.T_world_node.back() * T_submap_robot.T_a_b; }
@@ -161,6 +171,7 @@ void SubmapSlam::add(const ScanSamples& scan, const Pose& T_robot_sensor,
     Impl& s = *impl_;
     requireRigid(T_robot_sensor, "T_robot_sensor");
     requireRigid(T_previous_robot.T_a_b, "T_previous_robot");
+    if (s.isFinished()) throw std::logic_error("SubmapSlam::add: was called after finish");
     const double range_m = medianRange(scan.samples_sensor);
     if (!s.started) {
         s.begin({});
@@ -177,7 +188,7 @@ void SubmapSlam::add(const ScanSamples& scan, const Pose& T_robot_sensor,
 
 void SubmapSlam::finish() {
     Impl& s = *impl_;
-    if (s.started && s.submaps.size() < s.graph.T_world_node.size()) s.complete();
+    if (s.started && !s.isFinished()) s.complete();
     s.enterClosures();
 }
 

@@ -1,0 +1,31 @@
+#pragma once
+#include <hgmm/evaluation/recording.h>
+#include <hgmm/evaluation/trajectory.h>
+#include <hgmm/mrpt_bridge/reading_params.h>
+#include <hgmm/slam/submap_slam.h>
+
+#include <memory>
+
+#include "options.h"
+
+namespace hgmm::slam_app {
+
+/// A recording that was followed.
+struct SlamRun {
+    std::unique_ptr<slam::SubmapSlam> slam;  ///< finished
+    evaluation::Trajectory trajectory;       ///< T_world_robot of each scan, in their order
+    std::size_t scansLost = 0;
+    double seconds = 0.0;  ///< that it took [s]
+    bool interrupted = false;
+};
+
+/// Opens the recording of the options, with poses to be followed if it has some, and says
+/// which of several sensors is used. Throws std::runtime_error naming the file.
+evaluation::RecordingOptions recordingOptionsFor(const Options& options);
+
+/// Follows the recording to its end or Ctrl-C. Throws std::runtime_error if no scan could
+/// be used.
+SlamRun runSlam(evaluation::Recording& recording, const MapParams& map,
+                const mrpt_bridge::ReadingParams& reading, const Options& options);
+
+}  // namespace hgmm::slam_app

@@ -1,0 +1,37 @@
+#pragma once
+#include <optional>
+
+#include "hgmm/slam/uncertain_pose.h"
+#include "hgmm/tracker.h"
+
+namespace hgmm::slam {
+
+/// Follows a robot from scan to scan (ScanTracker), as increments of its pose.
+class Odometry {
+ public:
+    /// @param T_robot_sensor where the sensor is on the robot
+    Odometry(const MapParams& map, const Pose& T_robot_sensor);
+
+    /// How the robot moved since the last scan; the identity for the first one.
+    /// @param scan its T_map_sensor is not used
+    /// @param time_s as of ScanTracker::track
+    /// @param T_previous_robot the same by other means, such as wheels
+    UncertainPose step(const Scan& scan, double time_s,
+                       const std::optional<UncertainPose>& T_previous_robot);
+
+    /// Of the last scan.
+    const ScanSamples& lastSamples() const { return tracker_.lastSamples(); }
+    /// Whether the last scan said nothing of the motion.
+    bool lost() const { return last_.lost; }
+
+ private:
+    Pose T_robot_sensor_;
+    ScanTracker tracker_;
+    TrackedPose last_;  // in the map of the tracker
+    bool started_ = false;
+};
+
+/// A motion by wheels or another program, and how far off it may be: a tenth of it.
+UncertainPose givenMotion(const Pose& T_previous_robot);
+
+}  // namespace hgmm::slam

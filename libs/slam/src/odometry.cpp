@@ -1,0 +1,66 @@
+#include "hgmm/slam/odometry.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace hgmm::slam {
+namespace {
+
+/// What a covariance has grown by; directions in which it shrank have not grown.
+Matrix6d growth(const Matrix6d& before, const Matrix6d& after) {
+    const Eigen::Matrix<double, 6, 6> difference = after - before;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> axes(difference);
+    return axes.eigenvectors() * axes.eigenvalues().cwiseMax(0.0).asDiagonal() *
+           axes.eigenvectors().transpose();
+}
+
+/// The same errors in other axes.
+Matrix6d rotated(const Matrix6d& covariance, const Eigen::Matrix3d& R) {
+    Matrix6d by = Matrix6d::Zero();
+    by.topLeftCorner<3, 3>() = by.bottomRightCorner<3, 3>() = R;
+    return by * covariance * by.transpose();
+}
+
+PoseEstimate startAt(const Pose& T_map_sensor) {
+    PoseEstimate start;
+    start.T_map_sensor = T_map_sensor;
+    return start;
+}
+
+}  // namespace
+
+UncertainPose givenMotion(const Pose& T_previous_robot) {
+    const double way_m = T_previous_robot.t.norm();
+    const double turn_rad = rotationVectorOf(T_previous_robot.R).norm();
+    UncertainPose motion{T_previous_robot, Matrix6d::Zero()};
+    motion.covariance.topLeftCorner<3, 3>().diagonal().setConstant(
+        std::pow(0.005 + 0.1 * turn_rad + 0.02 * way_m, 2));
+    motion.covariance.bottomRightCorner<3, 3>().diagonal().setConstant(
+        std::pow(0.01 + 0.1 * way_m, 2));
+    return motion;
+}
+
+Odometry::Odometry(const MapParams& map, const Pose& T_robot_sensor)
+    : T_robot_sensor_(T_robot_sensor), tracker_(map, {}, startAt(T_robot_sensor)) {}
+
+UncertainPose Odometry::step(const Scan& scan, double time_s,
+                             const std::optional<UncertainPose>& T_previous_robot) {
+    std::optional<MotionIncrement> increment;
+    if (started_ && T_previous_robot) {
+        const Pose T_last_now =
+            T_robot_sensor_.inverse() * T_previous_robot->T_a_b * T_robot_sensor_;
+        const Eigen::Matrix3d R_sensor_robot = T_robot_sensor_.R.transpose();
+        increment = {T_last_now, rotated(T_previous_robot->covariance, R_sensor_robot)};
+    }
+    const TrackedPose now = tracker_.track(scan, time_s, increment);
+    const TrackedPose before = started_ ? last_ : now;
+    last_ = now;
+    started_ = true;
+    const Pose T_map_before = before.T_map_sensor * T_robot_sensor_.inverse();
+    const Pose T_map_now = now.T_map_sensor * T_robot_sensor_.inverse();
+    const Eigen::Matrix3d R_before_map = T_map_before.R.transpose();
+    return {T_map_before.inverse() * T_map_now,
+            rotated(growth(before.covariance, now.covariance), R_before_map)};
+}
+
+}  // namespace hgmm::slam

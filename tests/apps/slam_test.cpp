@@ -1,0 +1,119 @@
+#include <hgmm/evaluation/planar_observation.h>
+#include <hgmm/evaluation/trajectory.h>
+#include <mrpt/maps/CHGMMOccupancyMap.h>
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include "../slam/walk.h"
+#include "replay_map_fixture.h"
+
+namespace {
+
+using namespace hgmm::slam::testing;
+using hgmm::Pose;
+using hgmm::evaluation::Trajectory;
+
+/// Runs hgmm-slam on recordings of a laser in a corridor about a block.
+class Slam : public ReplayFolder {
+ protected:
+    Outcome slam(const std::string& arguments) const { return run("hgmm-slam", arguments); }
+
+    static mrpt::obs::CObservation::Ptr observationFrom(const Pose& truth, std::size_t i) {
+        const Scene scene = ringCorridor();
+        auto observation =
+            mrpt::obs::CObservation2DRangeScan::Create(hgmm::evaluation::planarObservation(
+                hgmm::evaluation::simulateReturns(scene, laser(), truth, {0.01, 0.0, 0.3},
+                                                  3, i),
+                laser(), 270.0, hgmm::evaluation::NoReturn::invalidZero));
+        observation->timestamp = mrpt::Clock::fromDouble(1000.0 + 0.1 * double(i));
+        observation->sensorLabel = i % 2 == 0 || !twoSensors ? "front" : "rear";
+        return observation;
+    }
+
+    std::string recordWalk(const std::vector<Pose>& truth) const {
+        box_room::Entries observations;
+        for (std::size_t i = 0; i < truth.size(); ++i)
+            observations.push_back(observationFrom(truth[i], i));
+        box_room::writeRawlog(path("walk.rawlog"), observations);
+        return "'" + path("walk.rawlog") + "' -o '" + path("out") + "'";
+    }
+
+    inline static bool twoSensors = false;
+};
+
+TEST_F(Slam, WritesMapTrajectoryGraphAndKeyframes) {
+    const std::vector<Pose> truth = walkAround(0.1, 0.12);
+    const Outcome outcome = slam(recordWalk(truth));
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    expectHas(outcome.out, std::to_string(truth.size()) + " scans in ");
+
+    const Trajectory trajectory =
+        hgmm::evaluation::readTrajectory(path("out/trajectory.tum"));
+    ASSERT_EQ(trajectory.size(), truth.size());
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        EXPECT_NEAR(trajectory[i].stamp, 1000.0 + 0.1 * double(i), 1e-4);
+        EXPECT_LT(
+            (trajectory[i].T_world_frame.t - (truth[0].inverse() * truth[i]).t).norm(), 0.1)
+            << i;
+    }
+
+    mrpt::maps::CHGMMOccupancyMap map;
+    map.loadFromFile(path("out/map.hgmm"));
+    const auto at = [&](double x, double y) {
+        const Eigen::Vector3d p =
+            (truth[0].inverse() * Pose{Eigen::Matrix3d::Identity(), {x, y, 0}}).t;
+        return map.model().occupancy(p);
+    };
+    EXPECT_GT(at(-4.0, -7.8).occupied, 0.5F);
+    EXPECT_GT(at(-4.0, -6.0).free, 0.5F);
+
+    mrpt::maps::CSimpleMap keyframes;
+    ASSERT_TRUE(keyframes.loadFromFile(path("out/keyframes.simplemap")));
+    ASSERT_GT(keyframes.size(), 2U);
+    mrpt::poses::CPose3DPDF::Ptr pose;
+    mrpt::obs::CSensoryFrame::Ptr frame;
+    keyframes.get(keyframes.size() - 1, pose, frame);
+    EXPECT_EQ(frame->size(), 1U);
+    EXPECT_NEAR(pose->getMeanVal().x(), trajectory.back().T_world_frame.t.x(), 0.3);
+
+    EXPECT_EQ(content("out/graph.g2o").rfind("VERTEX_SE3:QUAT 0 ", 0), 0U);
+}
+
+TEST_F(Slam, OneLineAScanOfTheChosenSensor) {
+    twoSensors = true;
+    const std::string arguments = recordWalk(walkAround(0.1, 0.04));
+    twoSensors = false;
+    Outcome outcome = slam(arguments);
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    expectHas(outcome.err, "scans of 2 sensors; using those of front");
+    EXPECT_EQ(hgmm::evaluation::readTrajectory(path("out/trajectory.tum")).size(), 10U);
+
+    outcome = slam(arguments + " --sensor rear");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const Trajectory rear = hgmm::evaluation::readTrajectory(path("out/trajectory.tum"));
+    ASSERT_EQ(rear.size(), 10U);
+    EXPECT_NEAR(rear[0].stamp, 1000.1, 1e-4);
+
+    outcome = slam(arguments + " --sensor left");
+    EXPECT_EQ(outcome.exitCode, 1);
+    expectHas(outcome.err, "no scans of a sensor left, but of front, rear");
+}
+
+TEST_F(Slam, RefusesBadInputBeforeItWorks) {
+    const std::string arguments = recordWalk(walkAround(0.1, 0.02));
+    EXPECT_EQ(slam("").exitCode, 2);
+    EXPECT_EQ(slam("/none.rawlog -o " + path("out")).exitCode, 1);
+    std::filesystem::create_directories(path("out"));
+    std::ofstream(path("out/map.hgmm")) << "somebody's notes\n";
+    const Outcome outcome = slam(arguments);
+    EXPECT_EQ(outcome.exitCode, 1);
+    expectHas(outcome.err, "map.hgmm");
+    EXPECT_EQ(content("out/map.hgmm"), "somebody's notes\n");
+    EXPECT_EQ(outcome.out, "");
+}
+
+}  // namespace
