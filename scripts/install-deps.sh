@@ -9,7 +9,7 @@ packages=(
     # build
     g++ cmake ninja-build ccache
     libmrpt-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libnanoflann-dev liboctomap-dev
-    libpng-dev zlib1g-dev
+    zlib1g-dev
     # Python package, its reports and pages, its tests and its wheel
     pybind11-dev python3-dev python3-numpy python3-pytest
     python3-setuptools python3-wheel python3-build python3-matplotlib libjs-three
