@@ -235,13 +235,15 @@ MakeSource addSimpleMap(CLI::App& app, Arguments& arguments) {
 MakeSource addRawlog(CLI::App& app, Arguments& arguments) {
     auto* command = app.add_subcommand(
         "rawlog",
-        "Rawlog of MRPT, in either format: its 2D range scans, with its odometry as poses");
+        "Rawlog of MRPT, in either format: its range scans (planar lasers, depth cameras, "
+        "clouds, lidars), with its odometry as poses");
     addOutputs(*command, arguments);
     command->add_option("--poses", arguments.poses, "TUM lines of the robot, not odometry")
         ->type_name("FILE");
     command
-        ->add_option("--aperture", arguments.aperture_deg,
-                     "Angle from the first ray to the last [deg], where the log is wrong")
+        ->add_option(
+            "--aperture", arguments.aperture_deg,
+            "2D scans: angle from the first ray to the last [deg], where the log is wrong")
         ->type_name("DEG")
         ->check(CLI::Range(0.1, 360.0));
     return [&] {

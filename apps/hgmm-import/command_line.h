@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "maps/import_map.h"
 #include "match_poses.h"
 #include "recording_writer.h"
 #include "rgbd_observation.h"
@@ -41,6 +42,9 @@ MakeSource addPcd(CLI::App& app, Arguments& arguments);
 MakeSource addPly(CLI::App& app, Arguments& arguments);
 MakeSource addSimpleMap(CLI::App& app, Arguments& arguments);
 MakeSource addRawlog(CLI::App& app, Arguments& arguments);
+
+/// Adds the command that imports maps.
+void addMap(CLI::App& app, MapImport& import);
 
 /// The check of an option: every number finite, and more than above.
 CLI::Validator numbersAbove(double above);

@@ -68,8 +68,11 @@ class Writer {
 /// Options of insertion that say how MRPT's observations are read, and those of version 0
 /// that nothing depends on.
 constexpr const char* kOthers[] = {"considerInvalidRangesAsFreeSpace",
-                                   "considerNoReturnsAsFreeSpace", "clearedShareOfRange",
-                                   "leafPerRange", "cellPerRange"};
+                                   "considerNoReturnsAsFreeSpace",
+                                   "clearedShareOfRange",
+                                   "intensityScale",
+                                   "leafPerRange",
+                                   "cellPerRange"};
 
 void requireKnown(const std::string& name) {
     bool known =

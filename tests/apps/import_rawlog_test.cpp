@@ -22,7 +22,8 @@ CPose2D robotAt(int i) {
 /// Logs of single observations: odometry, then a laser scan.
 class ImportRawlog : public ImportTest {
  protected:
-    void writeLog(int scans, bool clouds = false) const {
+    enum class Scans { planar, clouds, both };
+    void writeLog(int scans, Scans kinds = Scans::planar) const {
         mrpt::io::CFileGZOutputStream stream(path("in.rawlog").string());
         auto archive = mrpt::serialization::archiveFrom(stream);
         for (int i = 0; i < scans; ++i) {
@@ -36,8 +37,8 @@ class ImportRawlog : public ImportTest {
             scan.resizeScanAndAssign(11, 2.F + float(i), true);
             scan.setScanRangeValidity(4, false);
             scan.maxRange = 12.5F;
-            if (!clouds) archive << scan;
-            if (!clouds && i > 0) continue;
+            if (kinds != Scans::clouds) archive << scan;
+            if (kinds == Scans::planar) continue;
             mrpt::obs::CObservationPointCloud cloud;
             cloud.timestamp = odometry.timestamp;
             cloud.pointcloud = mrpt::maps::CSimplePointsMap::Create();
@@ -49,9 +50,7 @@ class ImportRawlog : public ImportTest {
 
 TEST_F(ImportRawlog, ApertureIsPutRightAndOdometryBecomesPoses) {
     writeLog(4);
-    const auto outcome = importIt("rawlog in.rawlog --aperture 179");
-    EXPECT_NE(outcome.err.find("1 scans that are not 2D"), std::string::npos)
-        << outcome.err;
+    importIt("rawlog in.rawlog --aperture 179");
     const auto scans = import_test::readRawlog<CObservation2DRangeScan>(path("out.rawlog"));
     ASSERT_EQ(scans.size(), 4U);
     expectStampsMatch(scans);
@@ -71,6 +70,48 @@ TEST_F(ImportRawlog, ApertureIsPutRightAndOdometryBecomesPoses) {
     EXPECT_EQ(
         import_test::readRawlog<CObservation2DRangeScan>(path("out.rawlog"))[0]->aperture,
         1.5F);
+}
+
+TEST_F(ImportRawlog, OdometryBecomesPosesOfCloudsToo) {
+    writeLog(3, Scans::both);
+    const auto mixed = importIt("rawlog in.rawlog");
+    EXPECT_NE(mixed.err.find("3 planar scans and 3 others"), std::string::npos);
+    EXPECT_NE(mixed.out.find("by the log's odometry"), std::string::npos) << mixed.out;
+    writeLog(3, Scans::clouds);
+    importIt("rawlog in.rawlog");
+    const auto clouds =
+        import_test::readRawlog<mrpt::obs::CObservationPointCloud>(path("out.rawlog"));
+    ASSERT_EQ(clouds.size(), 3U);
+    EXPECT_EQ(clouds[2]->pointcloud->size(), 1U);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_LT(import_test::poseDistance(
+                      poses()[std::size_t(i)].T_world_frame,
+                      import_test::toPose(mrpt::poses::CPose3D(robotAt(i)))),
+                  1e-6);
+}
+
+TEST_F(ImportRawlog, DataBesideTheLogIsWrittenIntoTheNewOne) {
+    std::filesystem::create_directories(path("in_Images"));
+    {
+        mrpt::io::CFileGZOutputStream stream(path("in.rawlog").string());
+        auto archive = mrpt::serialization::archiveFrom(stream);
+        mrpt::obs::CObservation3DRangeScan scan;
+        scan.timestamp = mrpt::Clock::fromDouble(1e9);
+        scan.hasRangeImage = true;
+        scan.rangeUnits = 1e-3F;
+        scan.rangeImage_setSize(4, 5);
+        scan.rangeImage.fill(2500);
+        scan.rangeImage_convertToExternalStorage("depth.bin", path("in_Images/").string());
+        archive << scan;
+    }
+    importIt("rawlog in.rawlog");
+    std::filesystem::remove_all(path("in_Images"));
+    const auto scans =
+        import_test::readRawlog<mrpt::obs::CObservation3DRangeScan>(path("out.rawlog"));
+    ASSERT_EQ(scans.size(), 1U);
+    ASSERT_FALSE(scans[0]->rangeImage_isExternallyStored());
+    ASSERT_EQ(scans[0]->rangeImage.rows(), 4);
+    EXPECT_EQ(scans[0]->rangeImage(3, 4), 2500);
 }
 
 // Stock rbpf-slam needs pairs, and moves particles as the actions say.
@@ -119,8 +160,9 @@ TEST_F(ImportRawlog, RefusesWhatItCannotUse) {
         EXPECT_EQ(outcome.exitCode, 1) << name;
         EXPECT_NE(outcome.err.find(name), std::string::npos) << outcome.err;
     }
-    writeLog(2, true);
-    const auto outcome = run("rawlog in.rawlog -o out.rawlog --poses-out out.tum");
+    writeLog(2, Scans::clouds);
+    const auto outcome =
+        run("rawlog in.rawlog -o out.rawlog --poses-out out.tum --aperture 180");
     EXPECT_EQ(outcome.exitCode, 1);
     EXPECT_NE(outcome.err.find("no 2D range scan"), std::string::npos) << outcome.err;
     for (const char* bad : {"--aperture 0", "--aperture 400", "--turn-error 5"})

@@ -9,6 +9,7 @@
 
 #include "coloured_wall.h"
 #include "hgmm/mrpt_bridge/modality_colours.h"
+#include "hgmm/mrpt_bridge/observation_to_scan.h"
 #include "observations.h"
 
 using hgmm::mrpt_bridge::modalityColours;
@@ -49,6 +50,52 @@ TEST(ModalityMap, ObservationsFillTheModalitiesAskedFor) {
     bright.insertObservation(*coloured_wall::intensities(), coloured_wall::kSensor);
     EXPECT_NEAR(bright.model().modality("intensity", coloured_wall::onWall(0.5, 0)).mean,
                 0.9, 0.03);
+}
+
+/// The wall with counts around 200, and a reflector of another count.
+mrpt::obs::CObservationPointCloud::Ptr counts(float reflector) {
+    auto points = mrpt::maps::CPointsMapXYZI::Create();
+    int i = 0;
+    coloured_wall::forEachPoint([&](float x, float y, float z) {
+        const bool reflects = y > 0.9F && z > 0.9F;
+        points->insertPointRGB(x, y, z, reflects ? reflector : 185.F + i++ % 30, 0, 0);
+    });
+    auto o = mrpt::obs::CObservationPointCloud::Create();
+    o->pointcloud = points;
+    return o;
+}
+
+TEST(ModalityMap, OneScaleOfIntensitiesServesAMap) {
+    for (const float first : {200.F, 900.F}) {
+        CHGMMOccupancyMap map = coloured_wall::map({"intensity"});
+        map.clear();
+        EXPECT_EQ(map.insertionOptions.reading.intensityScale, 0.0);
+        for (int i = 0; i < 4; ++i)
+            map.insertObservation(*counts(i % 2 == 0 ? first : 1100.F - first),
+                                  coloured_wall::kSensor);
+        const double scale = first > 255 ? 65535 : 255;
+        EXPECT_EQ(map.insertionOptions.reading.intensityScale, scale);
+        const auto answer = map.model().modality("intensity", coloured_wall::onWall(0, 0));
+        EXPECT_NEAR(answer.mean, 200 / scale, 0.01) << first;
+        EXPECT_LT(answer.variance, 0.002) << first;
+    }
+}
+
+TEST(ModalityMap, AScanThatFitsAnyScaleTellsNone) {
+    auto dark = mrpt::maps::CPointsMapXYZI::Create();
+    for (const float value : {0.F, 1.F, std::nanf("")})
+        dark->insertPointRGB(1, 2, 3, value, 0, 0);
+    auto o = mrpt::obs::CObservationPointCloud::Create();
+    o->pointcloud = dark;
+    using hgmm::mrpt_bridge::intensityScaleOf;
+    EXPECT_FALSE(intensityScaleOf(*o));
+    EXPECT_FALSE(intensityScaleOf(*coloured_wall::colours()));
+    dark->insertPointRGB(1, 2, 3, 0.5F, 0, 0);
+    EXPECT_EQ(intensityScaleOf(*o), 1.0);
+    dark->insertPointRGB(1, 2, 3, 255.F, 0, 0);
+    EXPECT_EQ(intensityScaleOf(*o), 255.0);
+    dark->insertPointRGB(1, 2, 3, 256.F, 0, 0);
+    EXPECT_EQ(intensityScaleOf(*o), 65535.0);
 }
 
 TEST(ModalityMap, ConfigurationsNameThem) {

@@ -11,6 +11,7 @@
 
 #include "hgmm/collision.h"
 #include "hgmm/export.h"
+#include "hgmm/known_cells.h"
 #include "hgmm/mixture.h"
 #include "hgmm/modality.h"
 #include "hgmm/occupancy.h"
@@ -62,6 +63,19 @@ class HGMM_EXPORT Map {
     Map& operator=(Map&& o) noexcept;
     ~Map();
 
+    /// A map that knows what a map of another kind does, as one of octrees or grids:
+    /// surfaces, from the outer faces of occupied cells, seen from the side of the free
+    /// cells; coverage, which is exactly the free cells; what is unknown stays so. Throws
+    /// std::invalid_argument for malformed cells (KnownCells::validate) and as the
+    /// constructor does.
+    static Map fromCells(const KnownCells& cells, const MapParams& params = {});
+    /// A map of surfaces alone, from points that nobody knows where they were seen from:
+    /// nothing is free, and components have no view directions. Points that are not finite
+    /// are left out. Throws std::invalid_argument for points that are too far apart, and as
+    /// the constructor does.
+    static Map fromPoints(const std::vector<Eigen::Vector3d>& points_map,
+                          const MapParams& params = {});
+
     const MapParams& params() const;
     /// For scans inserted from now on. Throws like the constructor.
     void setParams(const MapParams& params);
@@ -75,7 +89,7 @@ class HGMM_EXPORT Map {
     InsertReport insert(const Scan& scan);
     /// The same for a scan whose samples are at hand, samplesOf(scan, params()): many maps
     /// can share them. Modalities learn nothing. Throws std::invalid_argument for a pose
-    /// that is not finite or not rigid.
+    /// that is not finite, farther than kMaxPosition_m or not rigid.
     InsertReport insert(const ScanSamples& scan, const Pose& T_map_sensor);
 
     /// Adds what another map knows; this map's parameters stay.
@@ -87,8 +101,9 @@ class HGMM_EXPORT Map {
     /// stay.
     ///
     /// @param T_this_other pose of the other map's frame in this one's
-    /// Throws std::invalid_argument for a pose that is not finite or not rigid; nothing
-    /// is changed then.
+    /// Throws std::invalid_argument for a pose that is not finite, farther than
+    /// kMaxPosition_m or not rigid, or that would move what the other map knows as far, or
+    /// its components beyond kMaxCoordinate_m; nothing is changed then.
     void merge(const Map& other, const Pose& T_this_other = {});
 
     /// Removes the surface components of the base level whose means lie in a box, its faces
@@ -99,6 +114,16 @@ class HGMM_EXPORT Map {
     /// Throws std::invalid_argument for a box that is empty (a corner `min` above `max`) or
     /// not finite; nothing is changed then.
     std::size_t forget(const Eigen::AlignedBox3d& box_map);
+
+    /// The part of this map that answers within a box, with the same parameters and frame.
+    ///
+    /// Within the box, faces included, occupancy() of level 0 and modality(), where it is
+    /// known, are those of the whole map, bit for bit, and logDensity() but for a constant.
+    /// distance() is that of the whole map where the surface is not farther than the faces;
+    /// grow the box for more. Upper levels are made of what is kept.
+    /// @param box_map in the map frame [m]
+    /// Throws like forget().
+    Map crop(const Eigen::AlignedBox3d& box_map) const;
 
     bool empty() const;
     void clear();

@@ -29,6 +29,16 @@ BoxIndex::Placement BoxIndex::placementOf(const Box& box) const {
     return p;
 }
 
+bool BoxIndex::reaches(const Box& box, const float* low, const float* high) const {
+    const Placement p = placementOf(box);
+    const float scale = perCell(p.octave);
+    bool meets = true;
+    for (int d = 0; d < 3; ++d)
+        meets = meets && cellOf(low[d], scale) <= p.high[d] &&
+                p.low[d] <= cellOf(high[d], scale);
+    return meets;
+}
+
 void BoxIndex::reserve(std::size_t n) {
     // As maps go, a box touches some five cells that no other one has touched.
     constexpr std::size_t cellsPerBox = 5;

@@ -58,6 +58,8 @@ const QueryCache::Indices& QueryCache::indices() const {
     return indices_.get([this] {
         const Mixture<3>& base = model_.components.surfaces();
         auto made = std::make_unique<Indices>();
+        made->pyramid =
+            SurfacePyramid(FreeSpace::pyramidOctave(model_.params.occupancy.freeSpace));
         made->components.reserve(base.size());
         made->pyramid.reserve(base.size());
         for (std::uint32_t i = 0; i < base.size(); ++i) made->update(base, i);

@@ -66,6 +66,25 @@ OccupancyModel::Joint OccupancyModel::jointOf(const Gaussian<4>& g) {
     return joint;
 }
 
+float OccupancyModel::sideOf(const OccupancyParams& params, const ViewDirection& view) {
+    return static_cast<float>(kSideCells * params.coverage.edgeAt(view.range_m));
+}
+
+BoxIndex::Box OccupancyModel::reachOf(const OccupancyParams& params,
+                                      const Gaussian<3>& surface,
+                                      const ViewDirection& view) {
+    const auto reach_m = static_cast<float>(params.band.reach(view.range_m));
+    const Eigen::Vector3d front = (view.known() ? reach_m : 0.F) * view.direction;
+    const Eigen::Vector3d back =
+        (view.known() ? -sideOf(params, view) : 0.F) * view.direction;
+    return boxAround(surface.mean + back, surface.mean + front, ellipsoidExtent(surface));
+}
+
+BoxIndex::Box OccupancyModel::reachOf(const Gaussian<4>& component) {
+    const Eigen::Vector3d mean = component.mean.head<3>();
+    return boxAround(mean, mean, ellipsoidExtent(component));
+}
+
 void OccupancyModel::updateSurface(std::uint32_t i, const Gaussian<3>& surface,
                                    const ViewDirection& view) {
     Band band;
@@ -80,16 +99,13 @@ void OccupancyModel::updateSurface(std::uint32_t i, const Gaussian<3>& surface,
     band.width_m = static_cast<float>(params_.band.width(view.range_m));
     band.reach_m = static_cast<float>(params_.band.reach(view.range_m));
     for (int d = 0; d < 3; ++d) band.view[d] = static_cast<float>(view.direction[d]);
-    band.side_m = static_cast<float>(kSideCells * params_.coverage.edgeAt(view.range_m));
+    band.side_m = sideOf(params_, view);
     band.freePerMetre = static_cast<float>(params_.band.freePerMetre(view.range_m));
 
     if (i == bands_.size()) bands_.emplace_back();
     bands_.at(i) = band;
-    const Eigen::Vector3d front = (view.known() ? band.reach_m : 0.F) * view.direction;
-    const Eigen::Vector3d back = (view.known() ? -band.side_m : 0.F) * view.direction;
     boxes_.resize(bands_.size());
-    boxes_[i] =
-        boxAround(surface.mean + back, surface.mean + front, ellipsoidExtent(surface));
+    boxes_[i] = reachOf(params_, surface, view);
     bandBoxes_.update(i, boxes_[i]);
     bounds_.reset();
 }
@@ -105,8 +121,7 @@ void OccupancyModel::truncateSurfaces(std::size_t n) {
 void OccupancyModel::updateFree(std::uint32_t i, const Gaussian<4>& component) {
     if (i == freeJoints_.size()) freeJoints_.emplace_back();
     freeJoints_.at(i) = jointOf(component);
-    const Eigen::Vector3d mean = component.mean.head<3>();
-    freeBoxes_.update(i, boxAround(mean, mean, ellipsoidExtent(component)));
+    freeBoxes_.update(i, reachOf(component));
 }
 
 template <typename T>

@@ -44,6 +44,14 @@ class OccupancyModel {
     /// Throws std::invalid_argument naming the field.
     OccupancyModel(const OccupancyParams& params, const Coverage& coverage);
 
+    /// Answers depend on a component only at points that a BoxIndex with this box leads to.
+    static BoxIndex::Box reachOf(const OccupancyParams& params, const Gaussian<3>& surface,
+                                 const ViewDirection& view);
+    static BoxIndex::Box reachOf(const Gaussian<4>& component);
+    /// Where coverage tells whether space is open behind a surface.
+    static Eigen::Vector3d beyond(const OccupancyParams& params, const Gaussian<3>& surface,
+                                  const ViewDirection& view);
+
     /// Enters or re-enters surface component i <= number of those entered.
     void updateSurface(std::uint32_t i, const Gaussian<3>& surface,
                        const ViewDirection& view);
@@ -153,6 +161,8 @@ class OccupancyModel {
                         double to_m) const;
 
     static Joint jointOf(const Gaussian<4>& g);
+    /// So far to each side a surface tells which side a point is on [m].
+    static float sideOf(const OccupancyParams& params, const ViewDirection& view);
 
     OccupancyParams params_;
     const Coverage& coverage_;

@@ -46,6 +46,12 @@ bool isInside(const BoxIndex::Box& box, const float* point) {
 
 }  // namespace
 
+Eigen::Vector3d OccupancyModel::beyond(const OccupancyParams& params,
+                                       const Gaussian<3>& surface,
+                                       const ViewDirection& view) {
+    return surface.mean - kBeyond * double(sideOf(params, view)) * view.direction;
+}
+
 template <typename T>
 void OccupancyModel::addSide(const Band& band, const T& height, const T& beside,
                              Sides<T>& sides) const {

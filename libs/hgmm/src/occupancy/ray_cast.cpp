@@ -92,7 +92,7 @@ std::optional<double> OccupancyModel::firstOccupied(const Eigen::Vector3d& origi
     const auto isOccupied = [&](double range) {
         return at(origin + range * direction).occupied >= minOccupied;
     };
-    const double step = interval.sigma_m / kStepsPerSigma;
+    const double step = std::max(interval.sigma_m / kStepsPerSigma, kPrecision_m);
     double above = interval.start_m;
     while (above <= interval.end_m && !isOccupied(above)) above += step;
     if (above > interval.end_m) return std::nullopt;

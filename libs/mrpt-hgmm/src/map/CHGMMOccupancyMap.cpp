@@ -136,9 +136,10 @@ bool CHGMMOccupancyMap::internal_insertObservation(
     const mrpt::obs::CObservation& observation,
     const std::optional<const mrpt::poses::CPose3D>& robotPose) {
     if (!bridge::isSupported(observation)) return false;
-    const bridge::ReadingParams& reading = insertionOptions.reading;
+    bridge::ReadingParams& reading = insertionOptions.reading;
     reading.validate();
     if (!insertionOptions.params.modalities.empty()) {
+        bridge::settleIntensityScale(observation, reading);
         const auto scan = bridge::observationToScan(observation, robotPose,
                                                     bridge::Channels::all, reading);
         if (!scan) return false;

@@ -63,10 +63,14 @@ bridge::NewMap CHGMMOccupancyMap::internal_CreateFromMapDefinition(
     const auto& ours = dynamic_cast<const TMapDefinition&>(definition);
     auto map = std::make_unique<CHGMMOccupancyMap>();
     if (!ours.load_file.empty()) map->loadFromFile(ours.load_file);
+    const double scaleOfFile = map->insertionOptions.reading.intensityScale;
     map->insertionOptions = ours.insertionOpts;
     // Parameters without the modalities of a map would make it forget them.
     auto& modalities = map->insertionOptions.params.modalities;
     if (modalities.empty()) modalities = map->model().modalities();
+    // Nor may the scale of its intensities change.
+    double& scale = map->insertionOptions.reading.intensityScale;
+    if (scale == 0.0) scale = scaleOfFile;
     map->likelihoodOptions = ours.likelihoodOpts;
     map->renderOptions = ours.renderOpts;
     map->genericMapParams = ours.genericMapParams;

@@ -29,24 +29,49 @@ float measured(float value) {
                                 : std::numeric_limits<float>::quiet_NaN();
 }
 
-/// What a cloud's intensities are to be multiplied by. MRPT asks for [0, 1], but drivers
-/// and files also hold the counts of 8 or 16 bits; which it is shows in the largest.
-template <typename Intensities>
-float intensityScale(const Intensities& intensities) {
+/// The largest of them that is finite, and whether a value other than 0 and 1 is among
+/// them.
+struct IntensitySpan {
     float largest = 0.F;
-    for (const float value : intensities)
-        if (std::isfinite(value)) largest = std::max(largest, value);
-    return largest <= 1.F ? 1.F : largest <= 255.F ? 1.F / 255.F : 1.F / 65535.F;
+    bool tells = false;
+};
+template <typename Intensities>
+IntensitySpan spanOf(const Intensities& intensities) {
+    IntensitySpan span;
+    for (const float value : intensities) {
+        if (!std::isfinite(value)) continue;
+        span.largest = std::max(span.largest, value);
+        span.tells = span.tells || (value != 0.F && value != 1.F);
+    }
+    return span;
 }
 
-void readCloud(const mrpt::maps::CPointsMap& cloud, Channels channels, Scan& scan) {
+/// MRPT asks for [0, 1], but drivers and files also hold the counts of 8 or 16 bits; which
+/// it is shows in the largest.
+double scaleFor(float largest) {
+    return largest <= 1.F ? 1.0 : largest <= 255.F ? 255.0 : 65535.0;
+}
+
+/// What a cloud's intensities are to be multiplied by.
+template <typename Intensities>
+float factorFor(const Intensities& intensities, double intensityScale) {
+    const float largest = spanOf(intensities).largest;
+    if (intensityScale == 0.0) return static_cast<float>(1.0 / scaleFor(largest));
+    if (largest > intensityScale)
+        warnOnce("intensities exceed the map's intensityScale of " +
+                 numberText(intensityScale) + " and count as 1; set intensityScale");
+    return static_cast<float>(1.0 / intensityScale);
+}
+
+void readCloud(const mrpt::maps::CPointsMap& cloud, Channels channels,
+               double intensityScale, Scan& scan) {
     const auto* coloured = dynamic_cast<const mrpt::maps::CColouredPointsMap*>(&cloud);
     if (const auto* intensities = intensitiesOf<mrpt::maps::CPointsMapXYZI>(cloud)) {
         ScanWriter writer(scan, channels, {"intensity"});
         writer.reserve(cloud.size());
-        const float scale = intensityScale(*intensities);
+        const float factor = factorFor(*intensities, intensityScale);
         forEachPoint(cloud, [&](std::size_t i, float x, float y, float z) {
-            writer.pushBack(x, y, z, measured(scale * (*intensities)[i]));
+            writer.pushBack(x, y, z, measured(factor * (*intensities)[i]));
         });
     } else if (coloured && hasColours(*coloured)) {
         ScanWriter writer(scan, channels, {"r", "g", "b"});
@@ -78,16 +103,37 @@ void readCloud(const CObservationVelodyneScan::TPointCloud& cloud, Channels chan
             writer.pushBack(cloud.x[i], cloud.y[i], cloud.z[i]);
 }
 
-}  // namespace
-
-bool readScan(const CObservationPointCloud& o, Channels channels, const ReadingParams&,
-              Scan& scan) {
+/// Calls visit(cloud) with the cloud in memory, if there is one.
+template <typename Visitor>
+void visitCloud(const CObservationPointCloud& o, Visitor&& visit) {
     std::unique_lock<std::mutex> lock;
     if (o.isExternallyStored()) lock = std::unique_lock<std::mutex>(externalStorageMutex());
     const bool unloadAfter = o.isExternallyStored() && !o.pointcloud;
     o.load();
-    if (o.pointcloud) readCloud(*o.pointcloud, channels, scan);
+    if (o.pointcloud) visit(*o.pointcloud);
     if (unloadAfter) o.unload();
+}
+
+}  // namespace
+
+std::optional<double> intensityScaleOf(const CObservation& observation) {
+    const auto* o = dynamic_cast<const CObservationPointCloud*>(&observation);
+    std::optional<double> scale;
+    if (o == nullptr) return scale;
+    visitCloud(*o, [&](const mrpt::maps::CPointsMap& cloud) {
+        const auto* intensities = intensitiesOf<mrpt::maps::CPointsMapXYZI>(cloud);
+        if (intensities == nullptr) return;
+        const IntensitySpan span = spanOf(*intensities);
+        if (span.tells) scale = scaleFor(span.largest);
+    });
+    return scale;
+}
+
+bool readScan(const CObservationPointCloud& o, Channels channels,
+              const ReadingParams& reading, Scan& scan) {
+    visitCloud(o, [&](const mrpt::maps::CPointsMap& cloud) {
+        readCloud(cloud, channels, reading.intensityScale, scan);
+    });
     return true;
 }
 

@@ -73,4 +73,15 @@ void warnOfAbsentModalities(const Map& map, const Scan& scan) {
          listed(there));
 }
 
+void settleIntensityScale(const mrpt::obs::CObservation& observation,
+                          ReadingParams& reading) {
+    if (reading.intensityScale != 0.0) return;
+    const std::optional<double> scale = intensityScaleOf(observation);
+    if (!scale) return;
+    reading.intensityScale = *scale;
+    if (*scale != 1.0)
+        warn("intensities are divided by " + numberText(*scale) +
+             ", as the first scan tells; set intensityScale if that is wrong");
+}
+
 }  // namespace hgmm::mrpt_bridge

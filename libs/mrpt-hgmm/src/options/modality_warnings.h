@@ -2,6 +2,7 @@
 #include <string>
 
 #include "hgmm/map.h"
+#include "hgmm/mrpt_bridge/observation_to_scan.h"
 
 namespace hgmm::mrpt_bridge {
 
@@ -12,5 +13,10 @@ void warnOfForeignModalities(const Names& modalities, const std::string& section
 /// Reports that a scan has channels and none of them is a modality of the map, which knows
 /// none of its modalities yet.
 void warnOfAbsentModalities(const Map& map, const Scan& scan);
+
+/// Gives intensityScale, where it is 0, the scale of an observation that tells one, and
+/// reports it.
+void settleIntensityScale(const mrpt::obs::CObservation& observation,
+                          ReadingParams& reading);
 
 }  // namespace hgmm::mrpt_bridge

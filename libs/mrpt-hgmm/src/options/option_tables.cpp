@@ -15,7 +15,11 @@ const OptionTable<ReadingParams>& ReadingParams::options() {
         {"considerNoReturnsAsFreeSpace", &P::considerNoReturnsAsFreeSpace,
          "rotating lidars: rays without return clear space"},
         {"clearedShareOfRange", &P::clearedShareOfRange, "1", 0, 1,
-         "how far such rays clear space, as a share of the range seen beside them"}};
+         "how far such rays clear space, as a share of the range seen beside them"},
+        Option<P>("intensityScale", &P::intensityScale, "counts", 1e-6, 1e9,
+                  "what intensities of point clouds are divided by; 0: 1, 255 or 65535, as "
+                  "the first scan of a map tells")
+            .orZero()};
     return table;
 }
 

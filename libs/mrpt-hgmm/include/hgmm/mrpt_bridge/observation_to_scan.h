@@ -59,8 +59,8 @@ inline Channels channelsFor(const MapParams& params) {
 /// A channel value that is NaN was not measured. The image of a 3D range scan gives points
 /// the colour of their pixel if both cameras coincide and the images have the same size;
 /// otherwise points are projected into it by its own pose, intrinsics and distortion, and
-/// those outside it or hidden from it have no colour. Intensities of clouds that exceed 1
-/// are divided by 255, or by 65535 if one exceeds 255; those of other types are in 8 bits.
+/// those outside it or hidden from it have no colour. Intensities of clouds are divided by
+/// reading.intensityScale and cut at 1; those of other types are in 8 bits.
 ///
 /// @param robotPose pose of the robot in the map frame; the origin if not given
 /// @param reading in range (ReadingParams::validate)
@@ -71,6 +71,11 @@ std::optional<Scan> observationToScan(
     const mrpt::obs::CObservation& observation,
     const std::optional<mrpt::poses::CPose3D>& robotPose = std::nullopt,
     Channels channels = Channels::all, const ReadingParams& reading = {});
+
+/// The scale of a cloud's intensities, 1, 255 or 65535: the first that none of them
+/// exceeds. Nothing if the observation has none, or has values that fit any scale: only 0
+/// and 1.
+std::optional<double> intensityScaleOf(const mrpt::obs::CObservation& observation);
 
 /// Whether observationToScan knows the type, decided without converting anything.
 bool isSupported(const mrpt::obs::CObservation& observation);
