@@ -59,7 +59,7 @@ macro(hgmm_python_deb COMPONENT PACKAGE)
     math(EXPR NEXT "${MINOR} + 1")
     hgmm_deb(${COMPONENT} ${PACKAGE} SECTION python ${ARGN}
         DEPENDS "python3 (>= ${MAJOR}.${MINOR}~)" "python3 (<< ${MAJOR}.${NEXT}~)" python3-numpy
-        RECOMMENDS python3-matplotlib)
+        RECOMMENDS python3-matplotlib libjs-three)
     install(TARGETS python-core
         DESTINATION lib/python3/dist-packages/hgmm COMPONENT ${COMPONENT})
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/python/hgmm
