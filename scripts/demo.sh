@@ -10,7 +10,7 @@ out=$PWD/build/demo
 
 scripts/install-deps.sh
 [[ -f build/CMakeCache.txt ]] || cmake --preset release >/dev/null
-cmake --build --preset release --target hgmm-replay hgmm-map mrpt-hgmm
+cmake --build --preset release --target hgmm-replay hgmm-map mrpt-hgmm python-core
 rm -rf "$out"
 mkdir -p "$out"
 PATH=$PWD/build/bin:$PATH
@@ -31,6 +31,10 @@ section "A 2D laser loop, 225 scans on odometry alone, every fifth held out"
 hgmm-replay "$data/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog" --split 5 --quiet \
     --report "$out/laser" --save-map "$out/laser.hgmm"
 hgmm-map export "$out/laser.hgmm" --format png --pitch 90 -o "$out/laser.png"
+
+section "Pages to open in a browser: both maps in 3D"
+hgmm-map view "$out/rgbd.hgmm"
+hgmm-map view "$out/laser.hgmm"
 
 section "Stock pf-localization, 40 000 particles spread over 20 x 10 m, in our map"
 cd "$out"

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "hgmm/evaluation/render.h"
 #include "hgmm/mrpt_bridge/render_params.h"
 
 namespace maptool {
@@ -84,7 +83,9 @@ struct ExportOptions {
     std::size_t level = 0;
     std::size_t pointsPerComponent = 0;  ///< ply: points instead of ellipsoids, if not 0
     std::uint64_t seed = 1;
-    hgmm::evaluation::View view;             ///< png only
+    double yaw_deg = 30.0;    ///< png: viewing direction about z [deg]
+    double pitch_deg = 30.0;  ///< png: how far it points down [deg]
+    double cut = 0.0;         ///< png: share of the depth left out, in [0, 1)
     hgmm::mrpt_bridge::RenderParams render;  ///< 3Dscene only; level is taken from above
     double resolution_m = 0.0;               ///< bt, ot, yaml, voxels [m]; 0: derived
     /// bt, ot: the point of the map that becomes the tree's origin, x, y, z [m], rounded to
@@ -97,6 +98,18 @@ struct ExportOptions {
 
 /// `hgmm-map export`: one level in another program's format, in the map frame.
 void exportMap(const ExportOptions& options);
+
+struct ViewOptions {
+    std::string mapFile;
+    std::string output;      ///< empty: beside the map
+    std::string posesFile;   ///< trajectory, TUM lines; empty: none
+    std::string pointsFile;  ///< input points, PLY or lines of "x y z" [m]; empty: none
+    std::string up = "z";    ///< axis of the map that points up: "z", "-y", ...
+    bool force = false;      ///< replace a file of another kind
+};
+
+/// `hgmm-map view`: writes a page that shows the map in 3D, and prints its name.
+void view(const ViewOptions& options);
 
 struct OptionsOptions {
     bool all = false;       ///< advanced options, too

@@ -62,7 +62,7 @@ Sphere subdivided(const Sphere& coarse) {
 
 void appendEllipsoid(const hgmm::Gaussian<3>& component_local,
                      const Eigen::Vector3d& origin_map, double sigmas, std::uint32_t id,
-                     Ply& ply) {
+                     hgmm::evaluation::Ply& ply) {
     static const Sphere sphere = subdivided(icosahedron());
     const Eigen::Matrix3d covariance = component_local.covariance;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
@@ -74,7 +74,7 @@ void appendEllipsoid(const hgmm::Gaussian<3>& component_local,
     const auto first = static_cast<std::uint32_t>(ply.vertices.size());
     for (const Eigen::Vector3d& v : sphere.vertices) {
         ply.vertices.push_back(centre + axes * lengths.cwiseProduct(v));
-        ply.colours.push_back(colourOf(id));
+        ply.colours.push_back(hgmm::evaluation::colourOf(id));
         ply.components.push_back(id);
     }
     for (const auto& [a, b, c] : sphere.faces)

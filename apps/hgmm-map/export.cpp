@@ -1,12 +1,16 @@
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CSetOfObjects.h>
 
+#include <iomanip>
+#include <sstream>
+
 #include "commands.h"
 #include "ellipsoid_mesh.h"
 #include "export_octree.h"
 #include "export_slice.h"
 #include "hgmm/evaluation/reconstruction.h"
 #include "load.h"
+#include "made_by_python.h"
 
 namespace maptool {
 namespace {
@@ -19,19 +23,19 @@ constexpr int kAllEllipsoids = 10000000;  // the most that renderOptions take
 /// Points of every component, the same number of each.
 void appendComponentPoints(const hgmm::Gaussian<3>& component_local,
                            const Eigen::Vector3d& origin_map, const ExportOptions& options,
-                           std::uint32_t id, Ply& ply) {
+                           std::uint32_t id, hgmm::evaluation::Ply& ply) {
     hgmm::Mixture<3> alone;
     alone.pushBack(component_local);
     const hgmm::evaluation::Points points_map = hgmm::evaluation::sampleSurface(
         alone, origin_map, options.pointsPerComponent, options.seed + id);
     ply.vertices.insert(ply.vertices.end(), points_map.begin(), points_map.end());
-    ply.colours.resize(ply.vertices.size(), colourOf(id));
+    ply.colours.resize(ply.vertices.size(), hgmm::evaluation::colourOf(id));
     ply.components.resize(ply.vertices.size(), id);
 }
 
 void exportPly(const hgmm::Map& map, const ExportOptions& options) {
     const hgmm::Mixture<3>& mixture = levelOf(map, options.level, options.mapFile);
-    Ply ply;
+    hgmm::evaluation::Ply ply;
     for (std::size_t i = 0; i < mixture.size(); ++i) {
         const auto id = static_cast<std::uint32_t>(i);
         if (options.pointsPerComponent > 0)
@@ -39,7 +43,7 @@ void exportPly(const hgmm::Map& map, const ExportOptions& options) {
         else
             appendEllipsoid(mixture[i], map.origin(), kSigmas, id, ply);
     }
-    writePly(options.output, ply, replaceFor(options.force));
+    hgmm::evaluation::writePly(options.output, ply, replaceFor(options.force));
 }
 
 void exportScene(mrpt::maps::CHGMMOccupancyMap map, const ExportOptions& options) {
@@ -63,6 +67,23 @@ void exportScene(mrpt::maps::CHGMMOccupancyMap map, const ExportOptions& options
     file.commit();
 }
 
+void exportPicture(const hgmm::Map& map, const ExportOptions& options) {
+    levelOf(map, options.level, options.mapFile);
+    const auto number = [](const char* name, double value) {
+        std::ostringstream text;
+        text << name << '=' << std::setprecision(17) << value;
+        return text.str();
+    };
+    hgmm::mrpt_bridge::writeFile(
+        options.output,
+        madeByPython(
+            "hgmm.picture",
+            {"--output=-", "--level=" + std::to_string(options.level),
+             number("--yaw", options.yaw_deg), number("--pitch", options.pitch_deg),
+             number("--cut", options.cut), "--", options.mapFile}),
+        replaceFor(options.force));
+}
+
 std::vector<hgmm::mrpt_bridge::Output> outputsOf(const ExportOptions& options) {
     const std::string& file = options.output;
     if (options.format == "ply") return {{file, FileKind::ply}};
@@ -84,11 +105,7 @@ void exportMap(const ExportOptions& options) {
     if (options.format == "ply")
         exportPly(map.model(), options);
     else if (options.format == "png")
-        hgmm::mrpt_bridge::writeFile(
-            options.output,
-            hgmm::evaluation::pngOf(hgmm::evaluation::renderEllipsoids(
-                levelOf(map.model(), options.level, options.mapFile), options.view)),
-            replaceFor(options.force));
+        exportPicture(map.model(), options);
     else if (options.format == "3Dscene")
         exportScene(map, options);
     else if (options.format == "yaml")

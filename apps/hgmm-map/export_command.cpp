@@ -87,11 +87,9 @@ std::vector<Restricted> defineOptions(CLI::App& exports, ExportOptions& exportin
         Formats{"yaml"});
     exports.add_option("--seed", exporting.seed, "ply: seed of the points")
         ->check(CLI::NonNegativeNumber);
-    exports.add_option("--yaw", exporting.view.yaw_deg,
-                       "png: viewing direction about z [deg]");
-    exports.add_option("--pitch", exporting.view.pitch_deg,
-                       "png: how far it points down [deg]");
-    exports.add_option("--cut", exporting.view.cut,
+    exports.add_option("--yaw", exporting.yaw_deg, "png: viewing direction about z [deg]");
+    exports.add_option("--pitch", exporting.pitch_deg, "png: how far it points down [deg]");
+    exports.add_option("--cut", exporting.cut,
                        "png: share of the depth, from the viewer on, left out");
     return options;
 }

@@ -110,6 +110,22 @@ CLI::App* defineForget(CLI::App& app, maptool::ForgetOptions& forgetting) {
     return forget;
 }
 
+CLI::App* defineView(CLI::App& app, maptool::ViewOptions& viewing) {
+    CLI::App* view =
+        app.add_subcommand("view", "Write a page (.html) that shows the map in 3D");
+    view->add_option("MAP", viewing.mapFile, "Saved map")->required();
+    view->add_option("-o", viewing.output, "Output file; default: MAP with .html");
+    view->add_option("--poses", viewing.posesFile,
+                     "Trajectory, TUM lines: t x y z qx qy qz qw");
+    view->add_option("--points", viewing.pointsFile,
+                     "Input points [m]: a .ply file, or lines x y z");
+    view->add_option("--up", viewing.up, "Axis of the map that points up; write --up=-y")
+        ->check(CLI::IsMember({"x", "-x", "y", "-y", "z", "-z"}))
+        ->capture_default_str();
+    maptool::addForce(*view, viewing.force);
+    return view;
+}
+
 CLI::App* defineOptions(CLI::App& app, maptool::OptionsOptions& listing) {
     CLI::App* options = app.add_subcommand(
         "options", "Print the options that a configuration can set, with their defaults");
@@ -149,6 +165,8 @@ int main(int argc, char** argv) {
     maptool::ExportOptions exporting;
     const CLI::App* exports = maptool::defineExport(app, exporting);
 
+    maptool::ViewOptions viewing;
+    const CLI::App* view = defineView(app, viewing);
     maptool::OptionsOptions listing;
     const CLI::App* options = defineOptions(app, listing);
 
@@ -167,6 +185,7 @@ int main(int argc, char** argv) {
         if (*merge) maptool::merge(merging);
         if (*forget) maptool::forget(forgetting);
         if (*exports) maptool::exportMap(exporting);
+        if (*view) maptool::view(viewing);
         if (*options) maptool::printOptions(listing);
     } catch (const std::exception& e) {
         std::fprintf(stderr, "hgmm-map: %s\n", e.what());

@@ -114,8 +114,7 @@ ExitCode makeMapAndReport(Recording& recording, const Options& options) {
     const std::vector<MapFigures> maps = evaluateReplayed(replayed);
     std::fputs(table(replayed.run, maps, summariseTimes(replayed.conversion_ms)).c_str(),
                stdout);
-    if (options.reportFolder)
-        writeReport(replayed, maps, *options.reportFolder, picturesOf(replayed));
+    if (options.reportFolder) writeReport(replayed, maps, options);
     if (options.saveMap) replayed.map->saveToFile(*options.saveMap, options.force);
     if (!replayed.run.interrupted) return kDone;
     std::fprintf(stderr,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hgmm/mrpt_bridge/output_file.h"
+#include "report.h"
 
 namespace fs = std::filesystem;
 
@@ -19,9 +20,8 @@ std::vector<Output> reportOutputs(const std::string& folder) {
     return {{folder + "/metrics.json", FileKind::json},
             {folder + "/room.json", FileKind::json},
             {folder + "/report.html", FileKind::html},
-            {folder + "/roc.svg", FileKind::svg},
-            {folder + "/reliability.svg", FileKind::svg},
-            {folder + "/levels.svg", FileKind::svg},
+            {folder + "/" + kReportMap, FileKind::map},
+            {folder + "/" + kReportPoints, FileKind::ply},
             {folder + "/incremental.csv", FileKind::text},
             {folder + "/landscape.csv", FileKind::text},
             {folder + "/fig3.2.csv", FileKind::text}};

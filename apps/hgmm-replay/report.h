@@ -1,11 +1,10 @@
 #pragma once
-#include <string>
 #include <vector>
 
 #include "hgmm/evaluation/figures.h"
-#include "hgmm/evaluation/html_report.h"
-#include "hgmm/evaluation/render.h"
+#include "options.h"
 #include "replay_scans.h"
+#include "report_page.h"
 
 namespace replay {
 
@@ -18,23 +17,14 @@ std::vector<hgmm::evaluation::MapFigures> evaluateBaselines(const Replayed& repl
 /// Those of our surface model alone (hgmm::evaluation::evaluateSurface).
 hgmm::evaluation::MapFigures evaluateSurfaceOf(const Replayed& replayed);
 
-/// Writes metrics.json and report.html, and, where occupancy was evaluated, roc.svg,
-/// reliability.svg and levels.svg. Throws std::runtime_error naming the file that cannot be
-/// written.
+/// What report.html lets one look at, in the report's folder.
+constexpr const char* kReportMap = "map.hgmm";
+constexpr const char* kReportPoints = "input.ply";
+
+/// Writes the report of a run (writeReportFiles), with the map and some of the points that
+/// it was given. Throws std::runtime_error naming the file that cannot be written.
 void writeReport(const Replayed& replayed,
                  const std::vector<hgmm::evaluation::MapFigures>& maps,
-                 const std::string& folder,
-                 const std::vector<hgmm::evaluation::ReportPicture>& pictures);
-
-/// How pictures of reports look at maps: into rooms, at what is outdoors.
-hgmm::evaluation::View reportView(hgmm::evaluation::SensorKind sensor);
-
-/// What the maps were given.
-hgmm::evaluation::ReportPicture pictureOfInput(const Replayed& replayed,
-                                               const hgmm::evaluation::View& view,
-                                               const hgmm::evaluation::Frame& frame);
-
-/// The input, and beside it the map as ellipsoids.
-std::vector<hgmm::evaluation::ReportPicture> picturesOf(const Replayed& replayed);
+                 const Options& options, const std::vector<PointPicture>& pictures = {});
 
 }  // namespace replay

@@ -97,6 +97,7 @@ TEST_F(Outputs, MapCommandsReplaceNoInput) {
         expectRefused("hgmm-map", "merge " + m + " " + o + " --force -o " + to, "m.hgmm",
                       input);
         expectRefused("hgmm-map", "merge " + o + " " + m + " -o " + to, "m.hgmm", input);
+        expectRefused("hgmm-map", "view " + m + " --force -o " + to, "m.hgmm", input);
         for (const char* format : {"ply", "3Dscene", "png", "bt", "ot", "yaml --height 0"})
             expectRefused("hgmm-map",
                           "export " + m + " " + to + " --force --format " + format,
@@ -138,7 +139,6 @@ TEST_F(Outputs, OtherKindsAreReplacedOnlyIfAskedFor) {
         {"hgmm-map", "forget --box=0,0,0,1,1,1 " + m + " "},
         {"hgmm-map", "merge " + m + " " + path("o.hgmm") + " -o "},
         {"hgmm-map", "export --format 3Dscene " + m + " "},
-        {"hgmm-map", "export --format png " + m + " "},
         {"hgmm-map", "export --format bt " + m + " "},
         {"hgmm-import", pcd_ + " --poses-out " + path("p.tum") + " -o "},
         {"hgmm-import", pcd_ + " -o " + path("p.rawlog") + " --poses-out "}};

@@ -39,8 +39,7 @@ TEST_F(ReplayRegression, VarianceAndEntropyConvergeForTheDefaultSeed) {
     }
     EXPECT_EQ(held, 20);
     EXPECT_TRUE(differ);
-    for (const char* figure : {"mixture", "gp", "entropy", "variance", "first", "last"})
-        expectHas(content(std::string("report/fig4.5_") + figure + ".svg"), "</svg>");
+    EXPECT_EQ(json["plots"].size(), 6U);
 }
 
 TEST_F(ReplayRegression, FollowsTheSeedAndNothingElse) {

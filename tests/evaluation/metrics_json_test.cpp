@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "hgmm/evaluation/occupancy_plots.h"
-#include "hgmm/evaluation/svg_plot.h"
+#include <cmath>
+
+#include "hgmm/evaluation/plot.h"
 
 using namespace hgmm::evaluation;
 
@@ -39,15 +40,6 @@ OccupancyFigures exampleOccupancy() {
     f.unknownShareNear = 0.04;
     f.queriesPerSecond = 1e6;
     return f;
-}
-
-/// Where the first circle of a drawing after `from` is.
-std::pair<double, double> circleAt(const std::string& svg, std::size_t& from) {
-    double x = 0, y = 0;
-    from = svg.find("cx='", from);
-    if (from != std::string::npos)
-        std::sscanf(svg.c_str() + from++, "cx='%lf' cy='%lf'", &x, &y);
-    return {x, y};
 }
 
 }  // namespace
@@ -172,72 +164,33 @@ TEST(MetricsJson, WhatWasNotMeasuredIsLeftOut) {
     EXPECT_EQ(json["dataset"]["interrupted"], true);
 }
 
-TEST(SvgPlot, CurvesStayInsideTheFrameAndAxesAreLabelled) {
-    const std::string svg = toSvg({"a title",
-                                   "size [components]",
-                                   "KL < 1 & more [nat]",
-                                   {{{{116, 2}, {300, 0}}, "mean", true}}});
-    for (const char* part : {"a title", "size [components]", "KL &lt; 1 &amp; more [nat]",
-                             "mean", "</svg>", ">200</text>", ">1</text>"})
-        EXPECT_NE(svg.find(part), std::string::npos) << part;
-    const std::size_t at = svg.find("points='");
-    double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-    ASSERT_EQ(std::sscanf(svg.c_str() + at, "points='%lf,%lf %lf,%lf", &x0, &y0, &x1, &y1),
-              4);
-    EXPECT_LT(x0, x1);
-    EXPECT_LT(y0, y1) << "larger values are drawn higher, which is a smaller y";
-    EXPECT_GT(x0, 80);
-    EXPECT_LT(x1, 700);
-    EXPECT_GT(y0, 40);
-    EXPECT_LT(y1, 380);
+TEST(MetricsJson, RatesForALogarithmicAxisAreThoseOfTheWholeCurve) {
+    MapFigures map = exampleFigures();
+    map.occupancy = exampleOccupancy();
+    map.occupancy->rocUniform = {{0.0, 0.0}, {0.0, 0.5}, {0.002, 0.6}, {1.0, 1.0}};
+    const auto rates = metricsJson({}, {map})["maps"][0]["tpr_at_log_fpr"];
+    ASSERT_EQ(rates.size(), 101U);
+    EXPECT_DOUBLE_EQ(rates[0][0], 1e-4);
+    EXPECT_DOUBLE_EQ(rates[0][1], 0.505) << "a thinned curve would have lost this corner";
+    EXPECT_NEAR(rates[50][0], 0.01, 1e-12);
+    EXPECT_NEAR(rates[50][1], 0.6 + 0.4 * 0.008 / 0.998, 1e-12);
+    EXPECT_EQ(rates[100], nlohmann::ordered_json({1.0, 1.0}));
 }
 
-TEST(SvgPlot, RefusesWhatCannotBeDrawn) {
-    EXPECT_THROW(toSvg({"", "", "", {}}), std::invalid_argument);
-    EXPECT_THROW(toSvg({"", "", "", {{{{0, std::nan("")}}, "", false}}}),
+TEST(PlotJson, HoldsTheCurvesInTheirOrder) {
+    const auto json =
+        plotJson({"a title", "x [m]", "y", {{{{1, 2}, {3, 4}}, "mean", true}, {}}});
+    EXPECT_EQ(json["title"], "a title");
+    EXPECT_EQ(json["x_label"], "x [m]");
+    EXPECT_EQ(json["curves"][0]["points"],
+              nlohmann::ordered_json::parse("[[1.0,2.0],[3.0,4.0]]"));
+    EXPECT_EQ(json["curves"][0]["emphasised"], true);
+    EXPECT_EQ(json["curves"][1]["label"], "");
+}
+
+TEST(PlotJson, RefusesWhatCannotBeDrawn) {
+    EXPECT_THROW(plotJson({"", "", "", {}}), std::invalid_argument);
+    EXPECT_THROW(plotJson({"", "", "", {{{{0, std::nan("")}}, "", false}}}),
                  std::invalid_argument);
-    EXPECT_NO_THROW(toSvg({"", "", "", {{{{5, 5}}, "", false}}}));
-}
-
-TEST(SvgPlot, DecadesAreEquallyLongOnALogarithmicAxis) {
-    Plot plot;
-    Curve curve;
-    curve.markers = true;
-    curve.points = {{10, 0}, {100, 1}, {10000, 2}};
-    plot.curves = {curve};
-    plot.xLogarithmic = true;
-    const std::string svg = toSvg(plot);
-    std::size_t at = 0;
-    const double x10 = circleAt(svg, at).first, x100 = circleAt(svg, at).first,
-                 x10000 = circleAt(svg, at).first;
-    EXPECT_GT(x100, x10);
-    EXPECT_NEAR(x10000 - x100, 2 * (x100 - x10), 0.01);
-    EXPECT_NE(svg.find(">1000</text>"), std::string::npos);
-    plot.curves[0].points.emplace_back(0.0, 1.0);
-    EXPECT_THROW(toSvg(plot), std::invalid_argument);
-}
-
-TEST(OccupancyPlots, ShowEveryMap) {
-    MapFigures ours = exampleFigures(), other = exampleFigures();
-    ours.occupancy = exampleOccupancy();
-    other.name = "octomap:0.05";
-    other.levels.clear();
-    other.occupancy = ours.occupancy;
-    const Plot levels = levelsPlot({ours, other});
-    ASSERT_EQ(levels.curves.size(), 2U);
-    // The level that was not asked about occupancy is left out.
-    using Points2 = std::vector<std::pair<double, double>>;
-    EXPECT_EQ(levels.curves[0].points, (Points2{{1.2, 0.9}}));
-    EXPECT_EQ(levels.curves[1].points, (Points2{{1.0, 0.9}})) << "as saved";
-    other.memory.serialized_bytes.reset();
-    EXPECT_EQ(levelsPlot({ours, other}).curves[1].points, (Points2{{2.0, 0.9}}))
-        << "as held, where it cannot be saved";
-    EXPECT_EQ(reliabilityPlot({ours}).curves.back().points,
-              (Points2{{0.1, 0.2}, {0.9, 0.7}}));
-    for (const Plot& plot :
-         {levels, rocPlot({ours, other}), reliabilityPlot({ours, other})}) {
-        const std::string svg = toSvg(plot);
-        EXPECT_NE(svg.find("hgmm"), std::string::npos);
-        EXPECT_NE(svg.find("octomap:0.05"), std::string::npos);
-    }
+    EXPECT_NO_THROW(plotJson({"", "", "", {{{{5, 5}}, "", false}}}));
 }

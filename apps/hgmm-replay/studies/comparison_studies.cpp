@@ -41,8 +41,7 @@ void conclude(const Replayed& replayed, const std::vector<MapFigures>& maps,
     std::printf("study %s: %s, %zu scans mapped, %zu tested%s\n%s",
                 options.study.value_or("").c_str(), run.dataset.c_str(), run.scansMapped,
                 run.scansTested, run.interrupted ? " (interrupted)" : "", found.c_str());
-    if (options.reportFolder)
-        writeReport(replayed, maps, *options.reportFolder, picturesOf(replayed));
+    if (options.reportFolder) writeReport(replayed, maps, options);
 }
 
 std::string memoryTable(const Run& run, const std::vector<MapFigures>& maps) {

@@ -4,9 +4,10 @@
 #include <cstdio>
 #include <sstream>
 
-#include "hgmm/evaluation/svg_plot.h"
+#include "hgmm/evaluation/plot.h"
 #include "hgmm/evaluation/timing.h"
 #include "hgmm/mrpt_bridge/output_file.h"
+#include "report_page.h"
 
 namespace replay {
 namespace {
@@ -42,8 +43,9 @@ Curve meanCurve(const std::vector<FidelityCurve>& curves, double FidelityPoint::
     return mean;
 }
 
-std::string svg(const std::vector<FidelityCurve>& curves, const std::string& name,
-                double FidelityPoint::*value) {
+nlohmann::ordered_json divergencePlot(const std::vector<FidelityCurve>& curves,
+                                      const std::string& name,
+                                      double FidelityPoint::*value) {
     hgmm::evaluation::Plot plot{
         name + " divergence from the largest mixture (thesis fig. 3.2)",
         "size of the mixture [components]",
@@ -55,7 +57,7 @@ std::string svg(const std::vector<FidelityCurve>& curves, const std::string& nam
             line.points.emplace_back(double(p.size), p.*value);
     }
     plot.curves.push_back(meanCurve(curves, value));
-    return hgmm::evaluation::toSvg(plot);
+    return plotJson(plot);
 }
 
 std::string csv(const std::vector<FidelityCurve>& curves) {
@@ -94,13 +96,14 @@ std::string fidelitySummary(const std::vector<FidelityCurve>& curves, std::size_
     return text;
 }
 
-void writeFidelityReport(const std::vector<FidelityCurve>& curves,
-                         const std::string& folder) {
-    using hgmm::mrpt_bridge::writeFile;
-    writeFile(folder + "/fig3.2.csv", csv(curves));
-    writeFile(folder + "/fig3.2_kl.svg", svg(curves, "KL", &FidelityPoint::kl));
-    writeFile(folder + "/fig3.2_cs.svg",
-              svg(curves, "Cauchy-Schwarz", &FidelityPoint::cauchySchwarz));
+void writeFidelityReport(const std::vector<FidelityCurve>& curves, const Options& options) {
+    hgmm::mrpt_bridge::writeFile(*options.reportFolder + "/fig3.2.csv", csv(curves));
+    writeReportFiles(
+        {{"study", "fig3.2"},
+         {"plots",
+          {divergencePlot(curves, "KL", &FidelityPoint::kl),
+           divergencePlot(curves, "Cauchy-Schwarz", &FidelityPoint::cauchySchwarz)}}},
+        options);
 }
 
 }  // namespace replay

@@ -9,9 +9,8 @@ namespace replay {
 /// Mean estimated size and spread over the frames, for a reader.
 std::string fidelitySummary(const std::vector<FidelityCurve>& curves, std::size_t skipped);
 
-/// Writes fig3.2.csv, fig3.2_kl.svg and fig3.2_cs.svg. Throws std::runtime_error naming the
-/// file.
-void writeFidelityReport(const std::vector<FidelityCurve>& curves,
-                         const std::string& folder);
+/// Writes fig3.2.csv, and both divergences as plots of the report (writeReportFiles).
+/// Throws std::runtime_error naming the file.
+void writeFidelityReport(const std::vector<FidelityCurve>& curves, const Options& options);
 
 }  // namespace replay

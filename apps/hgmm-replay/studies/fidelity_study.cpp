@@ -87,7 +87,7 @@ void fidelityStudy(hgmm::evaluation::Recording& recording, const hgmm::MapParams
         throw std::runtime_error(options.log +
                                  ": no scan is dense enough for study fig3.2");
     std::fputs(fidelitySummary(curves, skipped).c_str(), stdout);
-    if (options.reportFolder) writeFidelityReport(curves, *options.reportFolder);
+    if (options.reportFolder) writeFidelityReport(curves, options);
 }
 
 }  // namespace replay

@@ -33,7 +33,7 @@ constexpr std::size_t kOverestimate = 300;
 FidelityCurve fidelityCurve(const hgmm::Scan& scan, const hgmm::MapParams& params);
 
 /// Estimates the fidelity threshold of every scan, prints the mean (thesis: 116 for the
-/// room) and writes fig3.2.csv, fig3.2_kl.svg and fig3.2_cs.svg into the report folder, if
+/// room) and writes fig3.2.csv, metrics.json and report.html into the report folder, if
 /// there is one.
 void fidelityStudy(hgmm::evaluation::Recording& recording, const hgmm::MapParams& params,
                    const Options& options);

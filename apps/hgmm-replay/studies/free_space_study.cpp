@@ -34,8 +34,7 @@ void freeSpaceStudy(Recording& recording, const Options& options) {
     std::printf("study free-space: %zu scans mapped, %zu tested\n",
                 replayed.run.scansMapped, replayed.run.scansTested);
     std::fputs(occupancyTable(replayed.run, maps).c_str(), stdout);
-    if (options.reportFolder)
-        writeReport(replayed, maps, *options.reportFolder, picturesOf(replayed));
+    if (options.reportFolder) writeReport(replayed, maps, options);
 }
 
 }  // namespace replay

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numeric>
+#include <utility>
 
 #include "format.h"
 #include "hgmm/evaluation/metrics_json.h"
@@ -135,24 +135,30 @@ double usualMost(std::vector<double> values) {
     return std::max(*most, 1e-6);
 }
 
-std::vector<Rgb> asColours(const std::vector<std::vector<double>>& values) {
-    std::vector<Rgb> colours(values.front().size());
+std::vector<Colour> asColours(const std::vector<std::vector<double>>& values) {
+    std::vector<Colour> colours(values.front().size());
     for (std::size_t i = 0; i < colours.size(); ++i)
         for (std::size_t c = 0; c < 3; ++c)
-            colours[i][c] = std::clamp(values[c][i], 0.0, 1.0);
+            colours[i][c] = static_cast<std::uint8_t>(
+                std::lround(255.0 * std::clamp(values[c][i], 0.0, 1.0)));
     return colours;
 }
 
-/// On the scale of what was measured, without the outermost hundredths.
-std::vector<Rgb> onScale(const std::vector<double>& values, std::vector<double> measured) {
+/// Of what was measured, without the outermost hundredths.
+std::pair<double, double> scaleOf(std::vector<double> measured) {
     std::sort(measured.begin(), measured.end());
-    const double low = measured[measured.size() / 100];
-    const double high = measured[measured.size() - 1 - measured.size() / 100];
-    std::vector<Rgb> colours;
-    colours.reserve(values.size());
-    for (const double v : values)
-        colours.push_back(scaleColour((v - low) / std::max(high - low, 1e-9)));
-    return colours;
+    const std::size_t stray = measured.size() / 100;
+    return {measured[stray], measured[measured.size() - 1 - stray]};
+}
+
+PointPicture pictureOf(const std::string& title, const std::string& file,
+                       const ModalityView& shown, const View& view) {
+    PointPicture picture;
+    picture.title = title;
+    picture.file = file + ".ply";
+    picture.points.vertices = shown.points.points_map;
+    picture.view = view;
+    return picture;
 }
 
 bool isColour(const std::vector<std::string>& names) {
@@ -177,7 +183,7 @@ std::string modalityTable(const ModalityFindings& findings) {
     return text;
 }
 
-std::string modalityMetrics(const ModalityFindings& findings) {
+nlohmann::ordered_json modalityMetrics(const ModalityFindings& findings) {
     Json json = metricsJson(findings.run, {});
     json["study"] = "table5.1";
     json["modalities"] = findings.names;
@@ -192,44 +198,54 @@ std::string modalityMetrics(const ModalityFindings& findings) {
     json["scan_ms_without_modalities"] = findings.insertWithout_ms;
     json["insertion_ratio"] = insertionRatio(findings);
     if (findings.query_us) json["cross_modal_query_us"] = *findings.query_us;
-    return json.dump(2) + "\n";
+    return json;
 }
 
-Picture reconstructionPicture(const ModalityView& shown, const View& view) {
+std::vector<PointPicture> reconstructionPictures(const ModalityView& shown,
+                                                 const std::string& name,
+                                                 const View& view) {
     const ModalityPoints& points = shown.points;
     std::vector<std::vector<double>> means;
     for (const auto& estimates : shown.estimates) {
         means.emplace_back();
         for (const hgmm::ModalityEstimate& e : estimates) means.back().push_back(e.mean);
     }
-    const Frame frame = frameOf(points.points_map, view);
-    const auto draw = [&](const std::vector<std::vector<double>>& values) {
-        return renderPoints(points.points_map,
-                            isColour(points.names)
-                                ? asColours(values)
-                                : onScale(values.front(), points.values.front()),
-                            view, frame);
-    };
-    return besideEachOther({draw(points.values), draw(means)});
+    std::vector<PointPicture> pictures{
+        pictureOf("As measured", name + "_measured", shown, view),
+        pictureOf("As reconstructed", name + "_reconstructed", shown, view)};
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        const auto& values = i == 0 ? points.values : means;
+        PointPicture& picture = pictures[i];
+        picture.caption = isColour(points.names) ? "Colours" : points.names.front();
+        if (isColour(points.names)) {
+            picture.points.colours = asColours(values);
+        } else {
+            picture.points.values.assign(values.front().begin(), values.front().end());
+            picture.scale = scaleOf(points.values.front());
+        }
+    }
+    return pictures;
 }
 
-Picture variancePicture(const ModalityView& shown, const View& view) {
-    std::vector<std::vector<double>> deviations;
+std::vector<PointPicture> deviationPictures(const ModalityView& shown,
+                                            const std::string& name, const View& view) {
+    std::vector<PointPicture> pictures;
     double most = 0.0;
-    for (const auto& estimates : shown.estimates) {
-        deviations.emplace_back();
-        for (const hgmm::ModalityEstimate& e : estimates)
-            deviations.back().push_back(std::sqrt(e.variance));
-        most = std::max(most, usualMost(deviations.back()));
+    for (std::size_t m = 0; m < shown.estimates.size(); ++m) {
+        const std::string& modality = shown.points.names[m];
+        pictures.push_back(pictureOf("Predicted standard deviation of " + modality,
+                                     name + "_deviation_" + modality, shown, view));
+        std::vector<double> deviations;
+        for (const hgmm::ModalityEstimate& e : shown.estimates[m])
+            deviations.push_back(std::sqrt(e.variance));
+        pictures.back().points.values.assign(deviations.begin(), deviations.end());
+        most = std::max(most, usualMost(std::move(deviations)));
     }
-    const Frame frame = frameOf(shown.points.points_map, view);
-    std::vector<Picture> pictures;
-    for (const std::vector<double>& ofModality : deviations) {
-        std::vector<Rgb> colours;
-        for (const double d : ofModality) colours.push_back(scaleColour(d / most));
-        pictures.push_back(renderPoints(shown.points.points_map, colours, view, frame));
+    for (PointPicture& picture : pictures) {
+        picture.scale = {0.0, most};
+        picture.caption = format("From dark at 0 to yellow at %.3g", most);
     }
-    return besideEachOther(pictures);
+    return pictures;
 }
 
 }  // namespace replay

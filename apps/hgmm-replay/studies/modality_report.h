@@ -1,9 +1,9 @@
 #pragma once
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "hgmm/evaluation/picture.h"
-#include "hgmm/evaluation/render.h"
+#include "report_page.h"
 #include "studies/modality_study.h"
 
 namespace replay {
@@ -12,16 +12,18 @@ namespace replay {
 std::string modalityTable(const ModalityFindings& findings);
 
 /// The findings as metrics.json.
-std::string modalityMetrics(const ModalityFindings& findings);
+nlohmann::ordered_json modalityMetrics(const ModalityFindings& findings);
 
-/// The points as measured, and beside them as reconstructed: r, g and b together, or the
-/// first modality from dark blue at its lowest to yellow.
-hgmm::evaluation::Picture reconstructionPicture(const ModalityView& shown,
-                                                const hgmm::evaluation::View& view);
+/// The points as measured, and as reconstructed: r, g and b together, or the first
+/// modality from dark at its lowest to yellow.
+/// @param name of the study's files
+std::vector<PointPicture> reconstructionPictures(const ModalityView& shown,
+                                                 const std::string& name, const View& view);
 
-/// The predicted standard deviation of each modality, from dark blue at 0 to yellow, beside
-/// each other and on one scale (thesis fig. 5.1 c to e).
-hgmm::evaluation::Picture variancePicture(const ModalityView& shown,
-                                          const hgmm::evaluation::View& view);
+/// The predicted standard deviation of each modality, all on one scale (thesis fig. 5.1 c
+/// to e).
+/// @param name of the study's files
+std::vector<PointPicture> deviationPictures(const ModalityView& shown,
+                                            const std::string& name, const View& view);
 
 }  // namespace replay

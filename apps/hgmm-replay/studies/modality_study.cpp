@@ -8,14 +8,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "hgmm/evaluation/picture.h"
 #include "hgmm/evaluation/split.h"
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
-#include "hgmm/mrpt_bridge/output_file.h"
 #include "interrupt.h"
 #include "map_setup.h"
 #include "progress.h"
-#include "report.h"
 #include "studies/modality_report.h"
 
 namespace replay {
@@ -186,20 +183,21 @@ class ModalityTrial {
 };
 
 void writeModalityReport(const ModalityTrial& study, const ModalityFindings& findings,
-                         const std::string& folder) {
-    hgmm::mrpt_bridge::writeFile(folder + "/metrics.json", modalityMetrics(findings));
+                         const Options& options) {
     const SensorKind sensor = sensorKindOf(findings.run.sensor);
-    const View view = reportView(sensor);
-    const ModalityView sequence = study.viewOfSequence();
-    writePng(reconstructionPicture(sequence, view), folder + "/table5.1.png");
-    writePng(variancePicture(sequence, view), folder + "/table5.1_variance.png");
+    std::vector<PointPicture> pictures;
+    const auto add = [&](const ModalityView& shown, const std::string& name,
+                         const View& view) {
+        for (auto& made : {reconstructionPictures(shown, name, view),
+                           deviationPictures(shown, name, view)})
+            pictures.insert(pictures.end(), made.begin(), made.end());
+    };
+    add(study.viewOfSequence(), "table5.1", reportView(sensor));
     const ModalityView scan = study.viewOfScan();
-    if (sensor != SensorKind::depthCamera || scan.points.size() == 0) return;
-    View ahead;  // as the camera sees it
-    ahead.yaw_deg = ahead.pitch_deg = 0.0;
-    ahead.width_px = view.width_px;
-    writePng(reconstructionPicture(scan, ahead), folder + "/table5.1_scan.png");
-    writePng(variancePicture(scan, ahead), folder + "/table5.1_scan_variance.png");
+    // As the camera sees it.
+    if (sensor == SensorKind::depthCamera && scan.points.size() > 0)
+        add(scan, "table5.1_scan", {0.0, 0.0, 0.0});
+    writeReportFiles(modalityMetrics(findings), options, pictures);
 }
 
 }  // namespace
@@ -219,7 +217,7 @@ void modalityStudy(Recording& recording, const Options& options) {
     }
     const ModalityFindings& findings = study.finish();
     std::fputs(modalityTable(findings).c_str(), stdout);
-    if (options.reportFolder) writeModalityReport(study, findings, *options.reportFolder);
+    if (options.reportFolder) writeModalityReport(study, findings, options);
 }
 
 }  // namespace replay

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "hgmm/evaluation/svg_plot.h"
+#include "hgmm/evaluation/plot.h"
 #include "hgmm/evaluation/timing.h"
-#include "hgmm/mrpt_bridge/output_file.h"
+#include "report_page.h"
 #include "studies/noisy_sine.h"
 
 namespace replay {
@@ -179,24 +179,18 @@ std::string regressionSummary(const std::vector<RegressionRun>& runs) {
                          [](const RegressionRun& r) { return r.entropyError(); });
 }
 
-void writeRegressionReport(const std::vector<RegressionRun>& runs,
-                           const std::string& folder) {
+void writeRegressionReport(const std::vector<RegressionRun>& runs, const Options& options) {
     const RegressionRun& run = runs.front();
-    const auto write = [&](const char* name, const Plot& plot) {
-        hgmm::mrpt_bridge::writeFile(folder + "/fig4.5_" + name + ".svg",
-                                     hgmm::evaluation::toSvg(plot));
-    };
-    write("mixture", predictionPlot(run, "Mixture", &RegressionQuery::mixture));
-    write("gp", predictionPlot(run, "Gaussian process", &RegressionQuery::gp));
-    write("entropy",
+    Json metrics = regressionJson(runs);
+    for (const Plot& plot :
+         {predictionPlot(run, "Mixture", &RegressionQuery::mixture),
+          predictionPlot(run, "Gaussian process", &RegressionQuery::gp),
           convergencePlot(run, "differential entropy [nat]", &RegressionFigures::entropy,
-                          differentialEntropy(kNoiseVariance)));
-    write("variance",
-          convergencePlot(run, "variance", &RegressionFigures::variance, kNoiseVariance));
-    write("first", componentPlot(run.first, run, "first"));
-    write("last", componentPlot(run.last, run, "last"));
-    hgmm::mrpt_bridge::writeFile(folder + "/metrics.json",
-                                 regressionJson(runs).dump(2) + "\n");
+                          differentialEntropy(kNoiseVariance)),
+          convergencePlot(run, "variance", &RegressionFigures::variance, kNoiseVariance),
+          componentPlot(run.first, run, "first"), componentPlot(run.last, run, "last")})
+        metrics["plots"].push_back(plotJson(plot));
+    writeReportFiles(std::move(metrics), options);
 }
 
 }  // namespace replay

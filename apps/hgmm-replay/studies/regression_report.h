@@ -10,9 +10,8 @@ namespace replay {
 /// @param runs at least one; the first queried after each set
 std::string regressionSummary(const std::vector<RegressionRun>& runs);
 
-/// Writes metrics.json and fig4.5_{mixture,gp,entropy,variance,first,last}.svg. Throws
+/// Writes the figures and the plots of fig. 4.5 as a report (writeReportFiles). Throws
 /// std::runtime_error naming the file.
-void writeRegressionReport(const std::vector<RegressionRun>& runs,
-                           const std::string& folder);
+void writeRegressionReport(const std::vector<RegressionRun>& runs, const Options& options);
 
 }  // namespace replay

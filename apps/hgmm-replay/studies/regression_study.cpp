@@ -105,7 +105,7 @@ void regressionStudy(const Options& options) {
     for (std::size_t i = 0; i < kSeeds; ++i)
         runs[i] = regressionRun(options.split.seed + i, i == 0);
     std::fputs(regressionSummary(runs).c_str(), stdout);
-    if (options.reportFolder) writeRegressionReport(runs, *options.reportFolder);
+    if (options.reportFolder) writeRegressionReport(runs, options);
 }
 
 }  // namespace replay

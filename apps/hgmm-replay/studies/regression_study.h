@@ -56,7 +56,7 @@ double differentialEntropy(double variance);
 RegressionRun regressionRun(std::uint64_t seed, bool queryEachSet);
 
 /// The 1D regression study of thesis 4.4.4 and fig. 4.5, and its end for 19 further seeds.
-/// Prints a table and writes metrics.json and fig4.5_*.svg into the report folder, if there
+/// Prints a table and writes metrics.json and report.html into the report folder, if there
 /// is one. Needs no recording.
 void regressionStudy(const Options& options);
 

@@ -7,7 +7,6 @@
 #include "format.h"
 #include "hgmm/evaluation/occupied_voxels.h"
 #include "hgmm/evaluation/reconstruction.h"
-#include "hgmm/evaluation/render.h"
 #include "hgmm/mrpt_bridge/voxel_grid.h"
 #include "map_setup.h"
 #include "replay_scans.h"
@@ -65,6 +64,15 @@ std::string describe(const VoxelMap& map, const Points& measured_map, double edg
         map.voxels_map.size(), r.recall, r.precision);
 }
 
+PointPicture pictureOf(const std::string& title, const std::string& caption,
+                       const Points& points_map) {
+    PointPicture picture;
+    picture.title = title;
+    picture.caption = caption;
+    picture.points.vertices = points_map;
+    return picture;
+}
+
 }  // namespace
 
 void voxelStudy(Recording& recording, const Options& given) {
@@ -89,13 +97,20 @@ void voxelStudy(Recording& recording, const Options& given) {
         std::printf("  %-16s  %s\n", map.name.c_str(), texts.back().c_str());
     }
     if (!options.reportFolder) return;
-    const View view = reportView(sensorKindOf(replayed.run.sensor));
-    const Frame frame = frameOf(replayed.input_map, view);
-    std::vector<ReportPicture> pictures{pictureOfInput(replayed, view, frame)};
-    for (std::size_t i = 0; i < maps.size(); ++i)
-        pictures.push_back({maps[i].name, texts[i],
-                            renderVoxels(maps[i].voxels_map, edge_m, view, frame)});
-    writeReport(replayed, evaluateReplayed(replayed), *options.reportFolder, pictures);
+    std::vector<PointPicture> pictures{pictureOf(
+        "Input",
+        format("%zu of the points that the maps were given", replayed.input_map.size()),
+        replayed.input_map)};
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+        if (maps[i].voxels_map.empty()) continue;
+        pictures.push_back(pictureOf(maps[i].name, texts[i], maps[i].voxels_map));
+        pictures.back().edge_m = edge_m;
+    }
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        pictures[i].file = format("fig3.8_%zu.ply", i);
+        pictures[i].view = reportView(sensorKindOf(replayed.run.sensor));
+    }
+    writeReport(replayed, evaluateReplayed(replayed), options, pictures);
 }
 
 }  // namespace replay

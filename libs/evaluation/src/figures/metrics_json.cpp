@@ -1,5 +1,8 @@
 #include "hgmm/evaluation/metrics_json.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace hgmm::evaluation {
 namespace {
 
@@ -57,6 +60,19 @@ Json rocJson(const RocCurve& curve) {
     return json;
 }
 
+/// Pairs of a false positive rate from 1e-4 on, evenly on a logarithmic axis, and the true
+/// positive rate there.
+Json logarithmicRocJson(const RocCurve& curve) {
+    constexpr double decades = 4.0, step = 0.04;
+    Json json = Json::array();
+    if (curve.empty()) return json;
+    for (double x = -decades; x < 0.5 * step; x += step) {
+        const double fpr = std::min(1.0, std::pow(10.0, x));
+        json.push_back({fpr, tprAt(curve, fpr)});
+    }
+    return json;
+}
+
 const char* nameOf(Meaning meaning) {
     switch (meaning) {
         case Meaning::occupancy:
@@ -96,6 +112,7 @@ void addOccupancy(const OccupancyFigures& f, Json& json) {
     json["queries_per_s"] = f.queriesPerSecond;
     json["roc"] = rocJson(f.rocUniform);
     json["roc_near"] = rocJson(f.rocNear);
+    json["tpr_at_log_fpr"] = logarithmicRocJson(f.rocUniform);
 }
 
 Json mapJson(const MapFigures& map) {

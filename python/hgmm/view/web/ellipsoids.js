@@ -47,7 +47,6 @@ class Ellipsoids {
         this.cells = new THREE.Vector2(width, Math.max(1, Math.ceil(this.count / width)));
         this.material = this.materialOf(cut, opacity);
         this.balls = fineness.map((times) => this.addBall(scene, times));
-        this.sizes = new Float32Array(this.count);
     }
 
     materialOf(cut, opacity) {
@@ -98,49 +97,35 @@ class Ellipsoids {
         return [this.first[this.level], this.first[this.level + 1]];
     }
 
-    // Sizes on the screen [pixels]; 0 behind the camera.
-    measure(camera, height_px) {
-        const [from, to] = this.range();
+    // Gives each component before the camera a ball by its size on the screen: the first one
+    // whose limit [pixels] it reaches. Returns the number of triangles.
+    fill(camera, height_px, limits) {
+        const [from, to] = this.range(), {mean, deviation, sigmas} = this;
         const eye = camera.position, ahead = camera.getWorldDirection(new THREE.Vector3());
         const focal = height_px / (2 * Math.tan(camera.fov * Math.PI / 360));
-        const {mean, deviation, sizes, sigmas} = this;
-        const ax = ahead.x, ay = ahead.y, az = ahead.z, ex = eye.x, ey = eye.y, ez = eye.z;
+        const ax = ahead.x, ay = ahead.y, az = ahead.z;
+        const behind = eye.dot(ahead);
+        const numbers = this.balls.map((ball) => ball.numbers.array);
+        const used = this.balls.map(() => 0);
         for (let i = from, k = 3 * from; i < to; ++i, k += 3) {
-            const depth = (mean[k] - ex) * ax + (mean[k + 1] - ey) * ay + (mean[k + 2] - ez) * az;
+            const depth = mean[k] * ax + mean[k + 1] * ay + mean[k + 2] * az - behind;
             const reach = sigmas * deviation[k];
-            sizes[i] = depth > -reach ? focal * reach / Math.max(depth, 0.1 * reach) : 0;
+            if (depth < -reach) continue;
+            const size = focal * reach / Math.max(depth, 0.1 * reach);
+            let ball = 0;
+            while (size < limits[ball]) ++ball;
+            numbers[ball][used[ball]++] = i;
         }
+        this.balls.forEach((ball, k) => { ball.used = used[k]; });
+        return this.balls.reduce((sum, ball) => sum + ball.used * ball.triangles, 0);
     }
 
-    // How many triangles there are if balls get coarser below these sizes [pixels].
-    trianglesFor(limits) {
-        const [from, to] = this.range(), {sizes} = this, counts = this.balls.map(() => 0);
-        for (let i = from; i < to; ++i)
-            if (sizes[i] > 0) ++counts[this.ballFor(sizes[i], limits)];
-        return this.balls.reduce((sum, ball, k) => sum + counts[k] * ball.triangles, 0);
-    }
-
-    ballFor(size, limits) {
-        let ball = 0;
-        while (ball < limits.length && size < limits[ball]) ++ball;
-        return ball;
-    }
-
-    // Gives each component its ball for this view.
+    // Arranges the balls for a view; coarser ones if they would be too many triangles.
     arrange(camera, height_px) {
+        let limits = [...[40, 9].slice(0, this.balls.length - 1), 0];
         for (const ball of this.balls) ball.used = 0;
-        if (this.shown) {
-            this.measure(camera, height_px);
-            let limits = [40, 9].slice(0, this.balls.length - 1);
-            for (let i = 0; i < 8 && this.trianglesFor(limits) > this.mostTriangles; ++i)
-                limits = limits.map((limit) => 2 * limit);
-            const [from, to] = this.range();
-            for (let i = from; i < to; ++i) {
-                if (!(this.sizes[i] > 0)) continue;
-                const ball = this.balls[this.ballFor(this.sizes[i], limits)];
-                ball.numbers.array[ball.used++] = i;
-            }
-        }
+        for (let i = 0; this.shown && i < 8; ++i, limits = limits.map((limit) => 2 * limit))
+            if (this.fill(camera, height_px, limits) <= this.mostTriangles) break;
         for (const ball of this.balls) {
             ball.mesh.visible = ball.used > 0;
             ball.mesh.geometry.maxInstancedCount = ball.used;

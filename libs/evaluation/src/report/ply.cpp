@@ -1,10 +1,10 @@
-#include "ply.h"
+#include "hgmm/evaluation/ply.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-namespace maptool {
+namespace hgmm::evaluation {
 namespace {
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
@@ -19,13 +19,14 @@ void append(std::string& bytes, const T& value) {
 
 std::string header(const Ply& ply) {
     std::string text =
-        "ply\nformat binary_little_endian 1.0\ncomment made by hgmm-map, in m\n";
+        "ply\nformat binary_little_endian 1.0\ncomment made by mrpt-hgmm, in m\n";
     text += "element vertex " + std::to_string(ply.vertices.size()) + "\n";
     for (const char* axis : {"x", "y", "z"})
         text += std::string("property double ") + axis + "\n";
     if (!ply.colours.empty())
         for (const char* c : {"red", "green", "blue"})
             text += std::string("property uchar ") + c + "\n";
+    if (!ply.values.empty()) text += "property float value\n";
     if (!ply.components.empty()) text += "property uint component\n";
     if (!ply.faces.empty())
         text += "element face " + std::to_string(ply.faces.size()) +
@@ -35,18 +36,19 @@ std::string header(const Ply& ply) {
 
 }  // namespace
 
-void writePly(const std::string& file, const Ply& ply, hgmm::mrpt_bridge::Replace replace) {
+void writePly(const std::string& file, const Ply& ply, mrpt_bridge::Replace replace) {
     std::string bytes = header(ply);
     for (std::size_t i = 0; i < ply.vertices.size(); ++i) {
         for (int axis = 0; axis < 3; ++axis) append(bytes, ply.vertices[i][axis]);
         if (!ply.colours.empty()) append(bytes, ply.colours[i]);
+        if (!ply.values.empty()) append(bytes, ply.values[i]);
         if (!ply.components.empty()) append(bytes, ply.components[i]);
     }
     for (const auto& face : ply.faces) {
         append(bytes, std::uint8_t{3});
         append(bytes, face);
     }
-    hgmm::mrpt_bridge::writeFile(file, bytes, replace);
+    mrpt_bridge::writeFile(file, bytes, replace);
 }
 
 Colour colourOf(std::uint32_t component) {
@@ -62,4 +64,4 @@ Colour colourOf(std::uint32_t component) {
     return colour;
 }
 
-}  // namespace maptool
+}  // namespace hgmm::evaluation
