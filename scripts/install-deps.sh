@@ -14,7 +14,7 @@ packages=(
     zlib1g-dev libceres-dev
     # Python package, its reports and pages, its tests and its wheel
     pybind11-dev python3-dev python3-numpy python3-pytest
-    python3-setuptools python3-wheel python3-build python3-matplotlib libjs-three
+    python3-setuptools python3-wheel python3-build python3-matplotlib libjs-three python3-distributed
     # tests
     libgtest-dev libbenchmark-dev clang-format pkg-config chromium chromium-driver python3-selenium
     libgtest-dev libbenchmark-dev clang-format pkg-config

@@ -62,6 +62,7 @@ void defineOptions(CLI::App& app, Options& o, bool& listStudies) {
     app.add_option("--seed", o.split.seed, "Seed of all random choices")
         ->check(CLI::NonNegativeNumber);
     app.add_flag("--quiet", o.quiet, "No progress");
+    app.add_flag("--count", o.count, "Print how many scans LOG holds, and make no map");
     app.add_option("--study", o.study, "Make a study instead of a map (--list-studies)")
         ->check([](const std::string& name) {
             return findStudy(name) ? "" : "no such study; --list-studies names them";
@@ -123,7 +124,17 @@ ExitCode makeMapAndReport(Recording& recording, const Options& options) {
     return kInterrupted;
 }
 
+/// How many scans there are, for whoever cuts a log into parts.
+ExitCode printCount(const Options& options) {
+    const Recording recording(options.log, {{}, options.from, options.to, false});
+    if (!recording.damage().empty())
+        std::fprintf(stderr, "warning: %s\n", recording.damage().c_str());
+    std::printf("%zu\n", recording.size());
+    return kDone;
+}
+
 ExitCode run(Options& options) {
+    if (options.count) return printCount(options);
     checkBaselines(options);
     prepareOutputs(options);
     options.threads = useThreads(options.threads);

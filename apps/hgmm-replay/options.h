@@ -37,6 +37,7 @@ struct Options {
     std::size_t to = std::numeric_limits<std::size_t>::max();
     int threads = 0;  ///< 0 = one per core
     bool quiet = false;
+    bool count = false;  ///< say how many scans there are, and nothing else
 };
 
 }  // namespace replay

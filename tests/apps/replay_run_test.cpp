@@ -100,6 +100,16 @@ TEST_F(Replay, TheMapAndItsAnswersDoNotDependOnWhatTheCLibraryPicks) {
     EXPECT_EQ(content("first.hgmm"), content("second.hgmm"));
 }
 
+TEST_F(Replay, CountsScans) {
+    recordRoom();
+    const std::string log = "'" + path("room.rawlog") + "' --count";
+    EXPECT_EQ(replay(log).out, "12\n");
+    EXPECT_EQ(replay(log + " --from 3 --to 7").out, "5\n");
+    const Outcome none = replay(log + " --from 12");
+    EXPECT_EQ(none.exitCode, 1);
+    expectHas(none.err, "holds 12 scans");
+}
+
 TEST_F(Replay, TheMapDoesNotDependOnTheNumberOfThreads) {
     const std::string command = recordRoom() + " --split 4 --save-map ";
     ASSERT_EQ(replay(command + path("one.hgmm") + " --threads 1").exitCode, 0);
