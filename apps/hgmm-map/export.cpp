@@ -3,6 +3,8 @@
 
 #include "commands.h"
 #include "ellipsoid_mesh.h"
+#include "export_field.h"
+#include "export_gltf.h"
 #include "export_octree.h"
 #include "export_slice.h"
 #include "hgmm/evaluation/reconstruction.h"
@@ -42,6 +44,12 @@ void exportPly(const hgmm::Map& map, const ExportOptions& options) {
     writePly(options.output, ply, replaceFor(options.force));
 }
 
+void exportGltf(const hgmm::Map& map, const ExportOptions& options) {
+    levelOf(map, options.level, options.mapFile);
+    hgmm::mrpt_bridge::writeFile(options.output, gltfOf(map, options.level, kSigmas),
+                                 replaceFor(options.force));
+}
+
 void exportScene(mrpt::maps::CHGMMOccupancyMap map, const ExportOptions& options) {
     levelOf(map.model(), options.level, options.mapFile);
     if (options.render.colour ==
@@ -67,6 +75,9 @@ std::vector<hgmm::mrpt_bridge::Output> outputsOf(const ExportOptions& options) {
     const std::string& file = options.output;
     if (options.format == "ply") return {{file, FileKind::ply}};
     if (options.format == "png") return {{file, FileKind::png}};
+    if (options.format == "glb") return {{file, FileKind::gltf}};
+    if (options.format == "csv") return {{file, FileKind::text}};
+    if (options.format == "pgm") return {{file, FileKind::pgm}};
     if (options.format == "3Dscene") return {{file, FileKind::scene}};
     if (options.format == "yaml")
         return {{file, FileKind::slice}, {pictureBeside(file), FileKind::pgm}};
@@ -89,6 +100,10 @@ void exportMap(const ExportOptions& options) {
             hgmm::evaluation::pngOf(hgmm::evaluation::renderEllipsoids(
                 levelOf(map.model(), options.level, options.mapFile), options.view)),
             replaceFor(options.force));
+    else if (options.format == "glb")
+        exportGltf(map.model(), options);
+    else if (options.format == "csv" || options.format == "pgm")
+        exportField(map.model(), options);
     else if (options.format == "3Dscene")
         exportScene(map, options);
     else if (options.format == "yaml")
