@@ -7,6 +7,10 @@ function(hgmm_target TARGET)
     if(HGMM_SANITIZE STREQUAL "thread")
         set(ARG_SANITIZERS thread)
         set(ALL_SANITIZERS thread)
+    elseif(HGMM_SANITIZE STREQUAL "fuzzer")
+        # Of undefined behaviour only what the address sanitizer does not see.
+        set(ALL_SANITIZERS address,signed-integer-overflow,float-cast-overflow,shift)
+        set(ARG_SANITIZERS fuzzer-no-link,${ALL_SANITIZERS})
     else()
         set(ALL_SANITIZERS address,undefined)
     endif()
@@ -54,16 +58,6 @@ function(hgmm_precompile TARGET)
     target_precompile_headers(${TARGET} PRIVATE
         <Eigen/Dense> <algorithm> <cmath> <functional> <memory> <string> <unordered_map> <vector>
         ${ARG_UNPARSED_ARGUMENTS})
-endfunction()
-
-# Headers of a library: from its folder when built here, from the prefix when installed.
-function(hgmm_library_includes TARGET)
-    target_include_directories(${TARGET} PUBLIC
-        $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
-        $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-    set_target_properties(${TARGET} PROPERTIES
-        VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
-    install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endfunction()
 
 # A GoogleTest program. Its cases run in shares of one process each: a process loads MRPT's

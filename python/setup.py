@@ -9,7 +9,7 @@ import shutil
 import subprocess
 import sys
 
-from setuptools import Extension, setup
+from setuptools import Extension, find_packages, setup
 from setuptools.command.build_ext import build_ext
 
 SOURCES = pathlib.Path(__file__).resolve().parent.parent
@@ -50,5 +50,6 @@ class CMakeBuild(build_ext):
                 shutil.copy(os.path.realpath(openmp), package / os.path.basename(openmp))
 
 
-setup(version=version(), packages=["hgmm"], ext_modules=[Extension("hgmm._core", sources=[])],
-      cmdclass={"build_ext": CMakeBuild})
+setup(version=version(), packages=find_packages(include=["hgmm", "hgmm.*"]),
+      package_data={"hgmm.report": ["*.css"], "hgmm.view": ["web/*"]},
+      ext_modules=[Extension("hgmm._core", sources=[])], cmdclass={"build_ext": CMakeBuild})

@@ -9,7 +9,7 @@ set -euo pipefail
 cd "${1:-$(dirname "$0")/..}"
 
 # From the top of the pipeline to the bottom.
-folders=(map io cell_map registration modality occupancy fusion scan index mixture base)
+folders=(tracking map io cell_map registration modality occupancy fusion scan index mixture base)
 wrong=0
 complain() {
     printf '%s\n' "$*" >&2
@@ -64,6 +64,7 @@ above() {
 }
 above libs/hgmm '^(hgmm/(evaluation|slam|mrpt_bridge)|nlohmann|CLI)/'
 above libs/mrpt-hgmm '^(hgmm/(evaluation|slam)|nlohmann|CLI)/'
+above libs/slam '^(hgmm/evaluation|nlohmann|CLI)/'
 above libs/evaluation '^(hgmm/slam|CLI)/'
 above python '^(mrpt|hgmm/(evaluation|slam|mrpt_bridge)|nlohmann|CLI)/'
 exit $wrong

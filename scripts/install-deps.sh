@@ -3,24 +3,31 @@
 # Works as root and, with sudo, as a user. Does nothing where all is there already.
 #   scripts/install-deps.sh         for the release build
 #   scripts/install-deps.sh asan    for the sanitized builds, too (asan, tsan)
+#   scripts/install-deps.sh package for Debian packages, too
 set -euo pipefail
 
 packages=(
     # build
     g++ cmake ninja-build ccache
     libmrpt-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libnanoflann-dev liboctomap-dev
-    libpng-dev zlib1g-dev
+    libpng-dev zlib1g-dev libceres-dev
     # Python package, its tests, its wheel and its example
+    libpng-dev zlib1g-dev
+    # Python package, its reports and pages, its tests and its wheel
     pybind11-dev python3-dev python3-numpy python3-pytest
-    python3-setuptools python3-wheel python3-build python3-matplotlib
+    python3-setuptools python3-wheel python3-build python3-matplotlib libjs-three
     # tests
-    libgtest-dev libbenchmark-dev clang-format chromium
+    libgtest-dev libbenchmark-dev clang-format chromium pkg-config
+    libgtest-dev libbenchmark-dev clang-format chromium chromium-driver python3-selenium
     # stock MRPT apps and their data, used by the tests and the demo
     mrpt-apps mrpt-common
 )
 if [[ ${1:-} == asan || ${1:-} == tsan ]]; then
     # Sanitized, GCC takes longer to compile the code, and the code to run.
     packages+=(clang libclang-rt-dev libomp-dev)
+fi
+if [[ ${1:-} == package ]]; then
+    packages+=(dpkg-dev file gzip help2man lintian man-db)
 fi
 
 missing=()

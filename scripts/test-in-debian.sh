@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # Runs the README's two commands in a bare Debian, as somebody would who has just cloned the
-# repository: what is committed, and no package but what debootstrap's minbase has.
-#   scripts/test-in-debian.sh bookworm|trixie [demo|test|both]        default: both
+# repository: what is committed, and no package but what debootstrap's minbase has. Makes the
+# Debian packages there, and tries them in another bare system (scripts/try-packages.sh).
+#   scripts/test-in-debian.sh bookworm|trixie [demo|test|packages|all]        default: all
 # Prints whether each passed, and its time. Needs root and debootstrap (apt-get install debootstrap).
 # Packages come from where this machine's own come from: /etc/apt, proxies and keys are carried
 # over. All is in /var/tmp/hgmm-debian/SUITE, or $HGMM_DEBIAN_DIR/SUITE: the bare system (base.tar)
-# and downloaded packages (archives) are kept for the next run, the system itself (root) and the
-# logs, too, to be looked at. Remove the folder when done. Mounts are in a namespace of the run's
-# own, and go with it.
+# and downloaded packages (archives) are kept for the next run, the systems themselves (root,
+# installed), our packages (debs) and the logs, too, to be looked at. Remove the folder when done.
+# Mounts are in a namespace of the run's own, and go with it.
 # HGMM_DATA_DIR names a folder of recordings, as in scripts/test.sh; it is mounted read-only.
+# HGMM_DEBIAN_CCACHE names a folder of ccache's to use there. Without, all is compiled.
 # CMAKE_BUILD_PARALLEL_LEVEL limits the jobs of a build.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -19,9 +21,9 @@ fail() {
 }
 
 suite=${1:-}
-what=${2:-both}
+what=${2:-all}
 [[ $suite == bookworm || $suite == trixie ]] || fail "which Debian? bookworm or trixie"
-[[ $what == demo || $what == test || $what == both ]] || fail "run what? demo, test or both"
+[[ $what =~ ^(demo|test|packages|all)$ ]] || fail "run what? demo, test, packages or all"
 [[ $EUID -eq 0 ]] || fail "needs root, for debootstrap and chroot; try sudo $0 $*"
 for tool in debootstrap unshare git; do
     command -v "$tool" >/dev/null || fail "needs $tool: apt-get install debootstrap util-linux git"
@@ -111,7 +113,9 @@ makeBase() {
     mv "$work/base.tar.part" "$work/base.tar"
 }
 
-enterBase() {
+# A bare system with this tree in it, where ccache expects it.
+enterBase() { # FOLDER
+    root=$1
     rm -rf --one-file-system "$root"
     mkdir -p "$root" "$work/archives/partial"
     tar -C "$root" -xpf "$work/base.tar"
@@ -119,6 +123,8 @@ enterBase() {
         rm -f "$root/etc/$file"
         cp -L "/etc/$file" "$root/etc/"
     done
+    # Nothing here must outlast a crash of the machine.
+    echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/unsafe-io"
     mount -t proc proc "$root/proc"
     mount --rbind /dev "$root/dev"
     mount --bind "$work/archives" "$root/var/cache/apt/archives"
@@ -126,7 +132,11 @@ enterBase() {
         mkdir "$root/data"
         mount --bind -o ro "$HGMM_DATA_DIR" "$root/data"
     fi
-    git clone -q --depth 1 "file://$PWD" "$root/root/mrpt-hgmm"
+    if [[ -n ${HGMM_DEBIAN_CCACHE:-} ]]; then
+        mkdir "$root/ccache"
+        mount --bind "$HGMM_DEBIAN_CCACHE" "$root/ccache"
+    fi
+    git clone -q --depth 1 "file://$PWD" "$root$PWD"
     if [[ -n $(git status --porcelain) ]]; then
         echo "note: what is not committed is not tried"
     fi
@@ -139,17 +149,20 @@ inside() { # COMMAND...
         if [[ -n ${!name:-} ]]; then environment+=("$name=${!name}"); fi
     done
     if [[ -n ${HGMM_DATA_DIR:-} ]]; then environment+=(HGMM_DATA_DIR=/data); fi
-    chroot "$root" env -i "${environment[@]}" sh -c 'cd /root/mrpt-hgmm && exec "$@"' sh "$@"
+    if [[ -n ${HGMM_DEBIAN_CCACHE:-} ]]; then
+        environment+=(CCACHE_DIR=/ccache CCACHE_BASEDIR="$(dirname "$PWD")" CCACHE_NOHASHDIR=1)
+    fi
+    chroot "$root" env -i "${environment[@]}" sh -c 'cd "$0" && exec "$@"' "$PWD" "$@"
 }
 
 failed=0
-try() { # NAME
+try() { # NAME [ARGUMENT...]
     local log=$work/$1.log from=$SECONDS
     # In the background, because a trap waits for what is in the foreground.
-    inside "scripts/$1.sh" </dev/null >"$log" 2>&1 &
+    inside "scripts/$1.sh" "${@:2}" </dev/null >"$log" 2>&1 &
     if wait $!; then
         echo "$suite: scripts/$1.sh passed in $((SECONDS - from)) s"
-        grep -E 'tests passed|^estimated final pose' "$log" || true
+        grep -E 'tests passed|^estimated final pose|^[EW]: |^ok: ' "$log" || true
     else
         echo "$suite: scripts/$1.sh FAILED after $((SECONDS - from)) s; the end of $log:"
         tail -30 "$log"
@@ -157,9 +170,22 @@ try() { # NAME
     fi
 }
 
+tryPackages() {
+    try package
+    [[ -d $root$PWD/build-package/debs ]] || return 0
+    rm -rf "$work/debs"
+    cp -r "$root$PWD/build-package/debs" "$work/debs"
+    enterBase "$work/installed"
+    mkdir "$root/debs"
+    mount --bind "$work/debs" "$root/debs"
+    try try-packages /debs
+}
+
 [[ -f $work/base.tar ]] || makeBase
-enterBase
-if [[ $what != test ]]; then try demo; fi
-if [[ $what != demo ]]; then try test; fi
+enterBase "$work/root"
+if [[ $what == demo || $what == all ]]; then try demo; fi
+if [[ $what == test || $what == all ]]; then try test; fi
+if [[ $what == packages || $what == all ]]; then tryPackages; fi
+root=$work/root
 inside dpkg-query -W libmrpt-dev g++ cmake libgtest-dev || true
 exit "$failed"

@@ -1,5 +1,6 @@
 #include <iostream>
 
+#include "../comma_lists.h"
 #include "command_line.h"
 #include "import_recording.h"
 
@@ -20,6 +21,7 @@ int main(int argc, char** argv) {
         "0 done, 1 bad input, 2 wrong usage.",
         "hgmm-import");
     app.require_subcommand(1);
+    app.set_version_flag("--version", "hgmm-import " HGMM_VERSION);
     Arguments arguments;
     const std::vector<std::pair<std::string, MakeSource>> formats{
         {"tum", addTum(app, arguments)},      {"7scenes", addSevenScenes(app, arguments)},
@@ -28,6 +30,7 @@ int main(int argc, char** argv) {
         {"rawlog", addRawlog(app, arguments)}};
     MapImport mapImport;
     addMap(app, mapImport);
+    endListsWithTheirArgument(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

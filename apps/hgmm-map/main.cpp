@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "../comma_lists.h"
 #include "commands.h"
 #include "export_command.h"
 
@@ -43,8 +44,7 @@ CLI::App* defineQuery(CLI::App& app, maptool::QueryOptions& querying) {
     query
         ->add_option("--modality", querying.modalities,
                      "Print this modality and its variance too; several: r,intensity")
-        ->delimiter(',')
-        ->allow_extra_args(false);
+        ->delimiter(',');
     query->add_flag("--distance", querying.distance,
                     "Answer the distance to the nearest surface, its gradient and standard "
                     "deviation too");
@@ -126,6 +126,7 @@ CLI::App* defineOptions(CLI::App& app, maptool::OptionsOptions& listing) {
 int main(int argc, char** argv) {
     CLI::App app{"Looks into saved Gaussian mixture maps (.hgmm) and converts them."};
     app.require_subcommand(1);
+    app.set_version_flag("--version", "hgmm-map " HGMM_VERSION);
     app.footer("Exit codes: 0 done, 1 bad input, 2 wrong usage.");
 
     std::string infoFile;
@@ -151,6 +152,7 @@ int main(int argc, char** argv) {
     maptool::OptionsOptions listing;
     const CLI::App* options = defineOptions(app, listing);
 
+    endListsWithTheirArgument(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

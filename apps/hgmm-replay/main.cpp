@@ -3,6 +3,7 @@
 #include <exception>
 #include <stdexcept>
 
+#include "../comma_lists.h"
 #include "interrupt.h"
 #include "map_setup.h"
 #include "occupancy_options.h"
@@ -22,15 +23,11 @@ using namespace hgmm::evaluation;
 enum ExitCode { kDone = 0, kBadInput = 1, kWrongUsage = 2, kInterrupted = 130 };
 
 void defineStudyOptions(CLI::App& app, StudyChoice& choice) {
-    app.add_option("--only", choice.only, "Parts of a study to run")
-        ->delimiter(',')
-        ->allow_extra_args(false);
+    app.add_option("--only", choice.only, "Parts of a study to run")->delimiter(',');
     app.add_option("--sensors", choice.sensors, "Simulated sensors of a study")
-        ->delimiter(',')
-        ->allow_extra_args(false);
+        ->delimiter(',');
     app.add_option("--after", choice.after, "Scans of a study before what it looks at")
         ->delimiter(',')
-        ->allow_extra_args(false)
         ->check(CLI::Range(1, 1000000));
     app.add_option("--seeds", choice.seeds,
                    "Runs of a simulated study, of which the worst counts")
@@ -153,10 +150,12 @@ ExitCode run(Options& options) {
 int main(int argc, char** argv) {
     CLI::App app{
         "Replays a recording into a hierarchical Gaussian mixture map and evaluates it."};
+    app.set_version_flag("--version", "hgmm-replay " HGMM_VERSION);
     Options options;
     bool listStudies = false;
     app.footer("Exit codes: 0 done, 1 bad input, 2 wrong usage, 130 interrupted.");
     defineOptions(app, options, listStudies);
+    endListsWithTheirArgument(app);
     try {
         app.parse(argc, argv);
         if (listStudies) {

@@ -44,8 +44,7 @@ void defineOccupancyOptions(CLI::App& app, Options& o) {
            "--baselines", o.baselines,
            "Other maps to evaluate beside ours, NAME or NAME:RESOLUTION in metres: " +
                namesOfBaselines())
-        ->delimiter(',')
-        ->allow_extra_args(false);
+        ->delimiter(',');
 }
 
 void checkOccupancyUsage(const Options& o) {

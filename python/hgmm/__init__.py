@@ -15,7 +15,7 @@ sensor to the map. Maps can be used from several threads.
 """
 from hgmm._core import FormatError, Map, __version__
 from hgmm.answers import (Distance, Inferred, InsertReport, Mixture, Modality, Occupancy,
-                          RayHit, Registration)
+                          RayHit, Registration, SurfaceDistance)
 
 __all__ = ["Distance", "FormatError", "Inferred", "InsertReport", "Map", "Mixture", "Modality",
-           "Occupancy", "RayHit", "Registration", "__version__"]
+           "Occupancy", "RayHit", "Registration", "SurfaceDistance", "__version__"]

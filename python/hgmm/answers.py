@@ -60,6 +60,20 @@ class Distance(NamedTuple):
     """Var[W | x] [m^2], thesis eq. (4.18), > 0"""
 
 
+class SurfaceDistance(NamedTuple):
+    """Arrays of shape (N,), columns of one buffer."""
+
+    distance: numpy.ndarray
+    """to the nearest surface [m], float64, >= 0; max_distance where none is nearer"""
+    gradient: numpy.ndarray
+    """of that distance, shape (N, 3), float64: the unit vector away from the surface; zero on
+    it and where there is none"""
+    std: numpy.ndarray
+    """standard deviation of the distance [m], float64; 0 where there is no surface"""
+    known: numpy.ndarray
+    """whether there is a surface, and as many hits behind it as make one, bool"""
+
+
 class Modality(NamedTuple):
     """Arrays of shape (N,)."""
 

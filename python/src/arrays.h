@@ -74,11 +74,24 @@ class Columns {
         const auto n = static_cast<py::ssize_t>(answers->size());
         const Struct none{};  // an empty vector has no first element to take an address of
         const Struct* first = answers->empty() ? &none : answers->data();
-        return py::make_tuple(py::array_t<Fields>(
-            {n}, {static_cast<py::ssize_t>(sizeof(Struct))}, &(first->*fields), owner)...);
+        return py::make_tuple(column(first->*fields, n, owner)...);
     }
 
  private:
+    static constexpr auto kStride = static_cast<py::ssize_t>(sizeof(Struct));
+
+    /// A field of the first answer and of those behind it.
+    template <typename Number>
+    static py::array column(const Number& first, py::ssize_t n, const py::capsule& owner) {
+        return py::array_t<Number>({n}, {kStride}, &first, owner);
+    }
+    static py::array column(const Eigen::Vector3d& first, py::ssize_t n,
+                            const py::capsule& owner) {
+        constexpr auto between = static_cast<py::ssize_t>(sizeof(double));
+        return py::array_t<double>({n, py::ssize_t{3}}, {kStride, between}, first.data(),
+                                   owner);
+    }
+
     std::unique_ptr<std::vector<Struct>> answers_;
 };
 

@@ -50,6 +50,15 @@ low, high: shape (3,), corners in the map frame [m]. Free space and modalities s
 
 Returns how many were removed. Raises ValueError for a box that is empty or not finite.)";
 
+constexpr const char* kCropDoc =
+    R"(The part of this map that answers within a box, as a map of its own in the same frame.
+
+low, high: shape (3,), corners in the map frame [m].
+
+Within the box, occupancy of level 0 and modality, where it is known, are those of this map, bit
+for bit; distances are where the surface is not farther than the faces of the box. Raises
+ValueError for a box that is empty or not finite. Releases the GIL.)";
+
 std::vector<float> floats(const py::array_t<float>& array) {
     return {array.data(), array.data() + array.size()};
 }
@@ -110,6 +119,13 @@ std::size_t forget(SharedMap& map, const py::object& low, const py::object& high
     return map.change([&](Map& m) { return m.forget(box_map); });
 }
 
+std::unique_ptr<SharedMap> crop(const SharedMap& map, const py::object& low,
+                                const py::object& high) {
+    const Eigen::AlignedBox3d box_map(vector3(low, "low"), vector3(high, "high"));
+    return std::make_unique<SharedMap>(
+        map.read([&](const Map& m) { return m.crop(box_map); }));
+}
+
 }  // namespace
 
 void bindBuilding(MapClass& map) {
@@ -122,6 +138,7 @@ void bindBuilding(MapClass& map) {
             "channels"_a = py::dict(), "cleared_rays_sensor"_a = py::none(), kInsertDoc);
     map.def("merge", &merge, "other"_a, "T_this_other"_a = py::none(), kMergeDoc);
     map.def("forget", &forget, "low"_a, "high"_a, kForgetDoc);
+    map.def("crop", &crop, "low"_a, "high"_a, kCropDoc);
     map.def(
         "clear", [](SharedMap& m) { m.change([](Map& it) { it.clear(); }); },
         "Forgets everything but the options.");

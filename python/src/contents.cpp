@@ -177,6 +177,12 @@ void bindContents(MapClass& map) {
         "empty",
         [](const SharedMap& m) { return m.read([](const Map& it) { return it.empty(); }); },
         "Whether the map has no surface.");
+    map.def_property_readonly(
+        "coverage_bytes",
+        [](const SharedMap& m) {
+            return m.read([](const Map& it) { return it.coverageBytes(); });
+        },
+        "Size of what the map knows of where rays passed, as it is saved [bytes].");
     map.def("__repr__", &text);
 }
 

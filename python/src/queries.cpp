@@ -33,6 +33,18 @@ Returns a Distance of arrays of shape (N,), NaN where no component reaches the p
 ValueError for another shape and IndexError for a level that does not exist. Uses all cores and
 releases the GIL.)";
 
+constexpr const char* kDistanceDoc =
+    R"(The Euclidean distance to the nearest surface, however it is seen. A component's surface is
+a rectangle across its thinnest axis.
+
+points_map: shape (N, 3) [m]; a point that is not finite has no answer.
+max_distance: farther surfaces are not seen [m], in [1e-3, 1e6].
+level: of the hierarchy, 0 the finest.
+
+Returns a SurfaceDistance of arrays of shape (N,), the gradient of shape (N, 3). Raises
+ValueError for another shape and a distance out of range, and IndexError for a level that does
+not exist. Uses all cores and releases the GIL.)";
+
 constexpr const char* kModalityDoc = R"(A modality at points: thesis eq. (5.6) and (5.7).
 
 name: of a channel that the option modalities names.
@@ -93,6 +105,18 @@ py::object alongRay(const SharedMap& map, const py::object& points_map, std::siz
                   *answers.arrays(&Occupancy::alongRay_m, &Occupancy::variance_m2));
 }
 
+py::object distance(const SharedMap& map, const py::object& points_map,
+                    double maxDistance_m, std::size_t level) {
+    const Points points(points_map, "points_map");
+    Columns<SurfaceDistance> answers(points.size());
+    map.read([&](const Map& m) {
+        m.distance(points.data(), points.size(), answers.data(), {maxDistance_m}, level);
+    });
+    return answer("SurfaceDistance",
+                  *answers.arrays(&SurfaceDistance::distance_m, &SurfaceDistance::gradient,
+                                  &SurfaceDistance::std_m, &SurfaceDistance::known));
+}
+
 py::object modality(const SharedMap& map, const std::string& name,
                     const py::object& points_map) {
     const Points points(points_map, "points_map");
@@ -135,6 +159,8 @@ void bindQueries(MapClass& map) {
     using namespace py::literals;
     map.def("occupancy", &occupancy, "points_map"_a, "level"_a = 0, kOccupancyDoc);
     map.def("along_ray", &alongRay, "points_map"_a, "level"_a = 0, kAlongRayDoc);
+    map.def("distance", &distance, "points_map"_a, py::kw_only(),
+            "max_distance"_a = DistanceParams().maxDistance_m, "level"_a = 0, kDistanceDoc);
     map.def("modality", &modality, "name"_a, "points_map"_a, kModalityDoc);
     map.def("infer", &infer, "target"_a, "values"_a, "point_map"_a = py::none(), kInferDoc);
     const RayCastParams ray;

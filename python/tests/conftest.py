@@ -53,6 +53,15 @@ def map_of_room(pose_of_frame=numpy.eye(4), seed=1, **options):
     return room
 
 
+@pytest.fixture(scope="session", autouse=True)
+def coarse_slices():
+    """Slices of pages are coarser than users have them, and quicker."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("hgmm.view.slices.MOST_CELLS", 80_000)
+        patch.setattr("hgmm.view.slices.SURFACE_POINTS", 60_000)
+        yield
+
+
 @pytest.fixture(scope="session")
 def room():
     return map_of_room(modalities=["warm", "cold"])

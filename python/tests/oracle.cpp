@@ -15,7 +15,8 @@
 /// hold numbers as they are in memory; maps are buffers of Map::save.
 ///   python-oracle insert POINTS(f64) MAP        a map of one scan at the origin, exact
 ///   python-oracle occupancy MAP POINTS ANSWERS(f32)
-///   python-oracle modality MAP POINTS ANSWERS(f64: mean, variance, known) NAME
+///   python-oracle distance MAP POINTS ANSWERS(f64: distance, gradient, std, known) MAX
+///   LEVEL python-oracle modality MAP POINTS ANSWERS(f64: mean, variance, known) NAME
 ///   python-oracle time MAP POINTS               seconds of the best of 20 batches of
 ///   queries
 namespace {
@@ -71,6 +72,17 @@ void occupancy(const Map& map, const std::vector<Eigen::Vector3d>& points,
     write(file, numbers);
 }
 
+void distance(const Map& map, const std::vector<Eigen::Vector3d>& points,
+              const std::string& file, double maxDistance_m, std::size_t level) {
+    std::vector<double> numbers;
+    for (const Eigen::Vector3d& p : points) {
+        const hgmm::SurfaceDistance d = map.distance(p, {maxDistance_m}, level);
+        numbers.insert(numbers.end(), {d.distance_m, d.gradient.x(), d.gradient.y(),
+                                       d.gradient.z(), d.std_m, d.known ? 1.0 : 0.0});
+    }
+    write(file, numbers);
+}
+
 void modality(const Map& map, const std::vector<Eigen::Vector3d>& points,
               const std::string& file, const std::string& name) {
     std::vector<double> numbers;
@@ -98,6 +110,9 @@ void run(const std::vector<std::string>& words) {
     const Map map = readMap(words.at(1));
     const std::vector<Eigen::Vector3d> points = readPoints(words.at(2));
     if (command == "occupancy") return occupancy(map, points, words.at(3));
+    if (command == "distance")
+        return distance(map, points, words.at(3), std::stod(words.at(4)),
+                        std::stoul(words.at(5)));
     if (command == "modality") return modality(map, points, words.at(3), words.at(4));
     if (command == "time") return time(map, points);
     throw std::runtime_error("no command " + command);

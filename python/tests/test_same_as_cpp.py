@@ -1,8 +1,9 @@
 """Answers and maps are those of the C++ core, bit for bit."""
 import numpy
+import pytest
 
 import hgmm
-from conftest import pose_at, scan_room
+from conftest import HALF_SIZES, pose_at, scan_room
 
 
 def write(folder, room, points):
@@ -37,6 +38,32 @@ def test_along_ray_is_that_of_occupancy_where_it_is_known(room, places):
     assert numpy.array_equal(along_ray.mean[known], occupancy.along_ray[known])
     assert numpy.array_equal(along_ray.variance[known], occupancy.variance[known])
     assert numpy.isnan(along_ray.mean[~known]).all() and numpy.isnan(along_ray.variance[~known]).all()
+
+
+@pytest.mark.parametrize("max_distance, level", [(5.0, 0), (0.4, 0), (1.5, 2)])
+def test_distance(tmp_path, oracle, room, places, max_distance, level):
+    files = write(tmp_path, room, places)
+    oracle("distance", *files, max_distance, level)
+    expected = numpy.fromfile(files[-1], numpy.float64).reshape(-1, 6)
+    here = room.distance(places, max_distance=max_distance, level=level)
+    assert here.gradient.shape == (len(places), 3) and here.known.dtype == bool
+    assert numpy.column_stack(here).tobytes() == expected.tobytes()
+    assert 0.2 < here.known.mean() <= 1
+    far = here.std == 0
+    assert (here.distance[far] == max_distance).all() and not here.gradient[far].any()
+    assert numpy.allclose(numpy.linalg.norm(here.gradient[~far], axis=1), 1)
+
+
+def test_distance_to_the_walls(room):
+    points = numpy.array([[3.2, 2, 0], [3, 0, 0.2], [0, -2.5, 0], [-3.8, 1, -0.3]])
+    here = room.distance(points)
+    assert numpy.abs(here.distance - (HALF_SIZES - abs(points)).min(axis=1)).max() < 0.02
+    axis = (HALF_SIZES - abs(points)).argmin(axis=1)
+    assert (numpy.abs(here.gradient[numpy.arange(4), axis]) > 0.99).all()
+    with pytest.raises(ValueError):
+        room.distance(points, max_distance=0)
+    with pytest.raises(IndexError):
+        room.distance(points, level=99)
 
 
 def test_modality(tmp_path, oracle, room, places):

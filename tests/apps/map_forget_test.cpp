@@ -42,3 +42,15 @@ TEST_F(MapForgetTool, ABadBoxIsSaidAndNothingIsWritten) {
     EXPECT_EQ(forget("1,2,3").exitCode, 2);
     EXPECT_FALSE(std::filesystem::exists(path("less.hgmm")));
 }
+
+TEST_F(MapForgetTool, OptionsStandAnywhere) {
+    const std::string in = "'" + path("room.hgmm") + "'",
+                      out = "'" + path("less.hgmm") + "'";
+    for (const std::string& line : {"--box=9,9,9,10,10,10 " + in + " " + out + " --force",
+                                    "--box 9,9,9,10,10,10 " + in + " " + out,
+                                    "--force --box 9 9 9 10 10 10 " + in + " " + out,
+                                    in + " --box=9,9,9,10,10,10 --force " + out}) {
+        const Outcome outcome = mapTool("forget " + line);
+        EXPECT_EQ(outcome.exitCode, 0) << line << outcome.err;
+    }
+}

@@ -83,6 +83,35 @@ TEST(BoxIndex, FindsEveryBoxThatHoldsAPoint) {
     filled(2000, engine).expectAgreement(engine, 500);
 }
 
+TEST(BoxIndex, PointsTogetherFindWhatEachFindsAlone) {
+    std::mt19937_64 engine(7);
+    BoxIndex index;
+    for (std::uint32_t i = 0; i < 500; ++i) index.update(i, randomBox(engine));
+    std::vector<float> x, y, z;
+    for (int k = 0; k < 700; ++k) {
+        // Clusters, so that cells hold several, and points far off.
+        const double cluster = k % 70 == 0 ? 1e7 : double(k % 7) * 3 - 10;
+        x.push_back(static_cast<float>(cluster + 0.2 * normal(engine)));
+        y.push_back(static_cast<float>(2 * normal(engine)));
+        z.push_back(static_cast<float>(0.1 * normal(engine)));
+    }
+    const CellOrder order =
+        orderedByCells(x.data(), y.data(), z.data(), x.size(), index.smallestOctave());
+    ASSERT_EQ(order.size(), x.size());
+    std::vector<std::vector<std::uint32_t>> together(x.size());
+    std::size_t longest = 0;
+    const auto take = [&](std::uint32_t i, std::size_t first, std::size_t last) {
+        longest = std::max(longest, last - first);
+        for (std::size_t k = first; k < last; ++k) together[order.index[k]].push_back(i);
+    };
+    // In two parts, as threads ask.
+    index.visitCandidates(order, 0, 300, take);
+    index.visitCandidates(order, 300, x.size(), take);
+    for (std::size_t k = 0; k < x.size(); ++k)
+        EXPECT_EQ(together[k], candidates(index, {x[k], y[k], z[k]})) << k;
+    EXPECT_GT(longest, 10U);
+}
+
 TEST(BoxIndex, FollowsUpdatesAndRemovals) {
     std::mt19937_64 engine(2);
     Pair pair = filled(500, engine);

@@ -73,11 +73,13 @@ TEST(SurfacePyramid, AgreesWithBruteForceThroughMovesAndRemovals) {
         EXPECT_FALSE(pyramid.isNearSurface(LatticeCell::at({0, 0, 0}, octave)));
 }
 
-TEST(SurfacePyramid, ClampsOctaves) {
-    SurfacePyramid pyramid;
-    pyramid.update(0, {0.5, 0.5, 0.5});
-    EXPECT_TRUE(pyramid.isNearSurface({SurfacePyramid::kMaxOctave + 5, 0, 0, 0}));
-    EXPECT_FALSE(pyramid.isNearSurface({SurfacePyramid::kMinOctave - 5, 0, 0, 0}));
+TEST(SurfacePyramid, AsksTheParentOfWhatIsTooSmallAndClearsNothingTooLarge) {
+    SurfacePyramid pyramid(-1);
+    pyramid.update(0, {0.9, 0.4, 0.4});
+    EXPECT_TRUE(pyramid.isNearSurface(LatticeCell::at({0.1, 0.1, 0.1}, -4)));
+    EXPECT_FALSE(pyramid.isNearSurface(LatticeCell::at({-0.1, 0.1, 0.1}, -4)));
+    EXPECT_FALSE(pyramid.isNearSurface(LatticeCell::at({0.1, -0.6, 0.1}, -1)));
+    EXPECT_TRUE(pyramid.isNearSurface({SurfacePyramid::kMaxOctave + 5, 99, 0, 0}));
 }
 
 TEST(LatticeCell, HoldsItsPoint) {

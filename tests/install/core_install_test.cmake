@@ -19,14 +19,19 @@ if(FOREIGN)
     message(FATAL_ERROR "installed with the core: ${FOREIGN}")
 endif()
 
-# The README's program, compiled by hand: no package, no generated header.
+# The README's program, by pkg-config.
 file(READ ${SOURCE_DIR}/README.md PAGE)
 if(NOT PAGE MATCHES "```cpp\n([^`]*)```")
     message(FATAL_ERROR "README.md has no C++ program")
 endif()
 file(WRITE ${WORK_DIR}/x.cpp "${CMAKE_MATCH_1}")
-step(${CXX} -std=c++17 -I${SOURCE_DIR}/libs/hgmm/include -I${EIGEN_DIR} ${WORK_DIR}/x.cpp
-    -o ${WORK_DIR}/x -L${BUILD_DIR}/lib -Wl,-rpath,${BUILD_DIR}/lib -lhgmm)
+file(GLOB_RECURSE PC ${WORK_DIR}/prefix/*/hgmm.pc)
+cmake_path(GET PC PARENT_PATH PC_DIR)
+set(ENV{PKG_CONFIG_PATH} ${PC_DIR})
+step(pkg-config --cflags --libs hgmm)
+separate_arguments(FLAGS UNIX_COMMAND "${STEP_OUTPUT}")
+step(${CXX} -std=c++17 ${WORK_DIR}/x.cpp -o ${WORK_DIR}/x ${FLAGS}
+    -Wl,-rpath,${WORK_DIR}/prefix/lib)
 step(${WORK_DIR}/x)
 if(NOT STEP_OUTPUT MATCHES "^occupied 0\\.[0-9]+, free (0\\.[5-9][0-9]*|1\\.0+), unknown 0\\.[0-9]+\n$")
     message(FATAL_ERROR "the README's program printed: ${STEP_OUTPUT}")

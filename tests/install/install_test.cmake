@@ -23,10 +23,16 @@ if(NOT STEP_OUTPUT MATCHES "P\\(occupied\\) = 0\\.[5-9]" OR NOT EXISTS ${WORK_DI
     message(FATAL_ERROR "consumer-documented printed: ${STEP_OUTPUT}")
 endif()
 foreach(installed
-        bin/hgmm-replay bin/hgmm-import bin/hgmm-map
+        bin/hgmm-replay bin/hgmm-import bin/hgmm-map lib/pkgconfig/mrpt-hgmm.pc
         share/mrpt-hgmm/config_files/pf-localization.ini)
     if(NOT EXISTS ${WORK_DIR}/prefix/${installed})
         message(FATAL_ERROR "not installed: ${installed}")
     endif()
 endforeach()
-step(${WORK_DIR}/prefix/bin/hgmm-map --help)
+file(GLOB PROGRAMS RELATIVE ${WORK_DIR}/prefix/bin ${WORK_DIR}/prefix/bin/*)
+foreach(PROGRAM ${PROGRAMS})
+    step(${WORK_DIR}/prefix/bin/${PROGRAM} --version)
+    if(NOT STEP_OUTPUT STREQUAL "${PROGRAM} ${VERSION}\n")
+        message(FATAL_ERROR "${PROGRAM} --version printed: ${STEP_OUTPUT}")
+    endif()
+endforeach()

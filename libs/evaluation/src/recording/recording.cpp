@@ -23,15 +23,21 @@ double timeOf(const mrpt::obs::CObservation& observation) {
     return mrpt::Clock::toDouble(observation.timestamp);
 }
 
-/// The range scans in an entry, in order.
-void collectScans(const CSerializable::Ptr& entry,
-                  std::deque<mrpt::obs::CObservation::Ptr>& scans) {
+/// Calls visit for the range scans in an entry, in order.
+template <typename Visitor>
+void visitScans(const CSerializable::Ptr& entry, Visitor&& visit) {
     if (auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(entry)) {
-        if (mrpt_bridge::isSupported(*observation)) scans.push_back(observation);
+        if (mrpt_bridge::isSupported(*observation)) visit(observation);
     } else if (auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry)) {
         for (const auto& o : *frame)
-            if (mrpt_bridge::isSupported(*o)) scans.push_back(o);
+            if (mrpt_bridge::isSupported(*o)) visit(o);
     }
+}
+
+std::string joined(const std::set<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+    return text;
 }
 
 std::string span(double from_s, double to_s) {
@@ -75,6 +81,7 @@ Recording::Recording(const std::string& file, const RecordingOptions& options)
     std::deque<mrpt::obs::CObservation::Ptr> scans;
     while (const CSerializable::Ptr entry = reader.next()) {
         survey.addMotion(entry, pose);
+        visitScans(entry, [&](const auto& o) { sensorLabels_.insert(o->sensorLabel); });
         collectScans(entry, scans);
         for (; !scans.empty(); scans.pop_front()) {
             const std::size_t index = survey.scans++;
@@ -88,6 +95,10 @@ Recording::Recording(const std::string& file, const RecordingOptions& options)
     if (!reader.damage().empty())
         damage_ =
             reader.damage() + "; " + std::to_string(survey.scans) + " scans can be used";
+    if (survey.scans == 0 && !sensorLabels_.empty())
+        throw std::runtime_error(file + ": holds no scans of a sensor " +
+                                 options.sensorLabel.value_or("") + ", but of " +
+                                 joined(sensorLabels_));
     if (survey.scans == 0)
         throw std::runtime_error(damage_.empty()
                                      ? file + ": holds no range scans among its " +
@@ -98,6 +109,14 @@ Recording::Recording(const std::string& file, const RecordingOptions& options)
                                  " scans, so none lies between --from " +
                                  std::to_string(options.from) + " and --to");
     resolvePoses(survey);
+}
+
+void Recording::collectScans(const CSerializable::Ptr& entry,
+                             std::deque<mrpt::obs::CObservation::Ptr>& scans) const {
+    visitScans(entry, [&](const mrpt::obs::CObservation::Ptr& o) {
+        if (!options_.sensorLabel || o->sensorLabel == *options_.sensorLabel)
+            scans.push_back(o);
+    });
 }
 
 void Recording::resolvePoses(const Survey& survey) {

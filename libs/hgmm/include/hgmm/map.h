@@ -89,7 +89,7 @@ class HGMM_EXPORT Map {
     InsertReport insert(const Scan& scan);
     /// The same for a scan whose samples are at hand, samplesOf(scan, params()): many maps
     /// can share them. Modalities learn nothing. Throws std::invalid_argument for a pose
-    /// that is not finite or not rigid.
+    /// that is not finite, farther than kMaxPosition_m or not rigid.
     InsertReport insert(const ScanSamples& scan, const Pose& T_map_sensor);
 
     /// Adds what another map knows; this map's parameters stay.
@@ -101,8 +101,9 @@ class HGMM_EXPORT Map {
     /// stay.
     ///
     /// @param T_this_other pose of the other map's frame in this one's
-    /// Throws std::invalid_argument for a pose that is not finite or not rigid; nothing
-    /// is changed then.
+    /// Throws std::invalid_argument for a pose that is not finite, farther than
+    /// kMaxPosition_m or not rigid, or that would move what the other map knows as far, or
+    /// its components beyond kMaxCoordinate_m; nothing is changed then.
     void merge(const Map& other, const Pose& T_this_other = {});
 
     /// Removes the surface components of the base level whose means lie in a box, its faces
@@ -113,6 +114,16 @@ class HGMM_EXPORT Map {
     /// Throws std::invalid_argument for a box that is empty (a corner `min` above `max`) or
     /// not finite; nothing is changed then.
     std::size_t forget(const Eigen::AlignedBox3d& box_map);
+
+    /// The part of this map that answers within a box, with the same parameters and frame.
+    ///
+    /// Within the box, faces included, occupancy() of level 0 and modality(), where it is
+    /// known, are those of the whole map, bit for bit, and logDensity() but for a constant.
+    /// distance() is that of the whole map where the surface is not farther than the faces;
+    /// grow the box for more. Upper levels are made of what is kept.
+    /// @param box_map in the map frame [m]
+    /// Throws like forget().
+    Map crop(const Eigen::AlignedBox3d& box_map) const;
 
     bool empty() const;
     void clear();

@@ -21,6 +21,13 @@ constexpr int packedIndex(int D, int row, int col) {
                       : packedIndex(D, col, row);
 }
 
+/// Bounds of what maps hold, far beyond what sensors see: within them nothing overflows,
+/// and no loop over cells runs long.
+constexpr double kMaxCoordinate_m = 1e9;   ///< of a mean, in the local frame, either sign
+constexpr double kMinVariance_m2 = 1e-18;  ///< of a component along an axis
+constexpr double kMaxVariance_m2 = 1e16;
+constexpr double kMaxSupport = 1e12;  ///< a component that has more keeps this [count]
+
 /// One Gaussian component, or one measured sample, with its support. This is the form in
 /// which single components travel; sets of them are stored as Mixture.
 template <int D>
@@ -60,7 +67,8 @@ class Mixture {
     void clear();
     void reserve(std::size_t n);
     void pushBack(const Gaussian<D>& component);
-    /// Overwrites component i. @throws std::out_of_range if i >= size().
+    /// Overwrites component i; its support is kept to kMaxSupport. @throws
+    /// std::out_of_range if i >= size().
     void set(std::size_t i, const Gaussian<D>& component);
     /// Removes component i; the last component takes its place.
     void removeSwap(std::size_t i);
@@ -77,8 +85,9 @@ class Mixture {
     double weight(std::size_t i, double total) const { return support[i] / total; }
 
     /// Throws std::logic_error if array lengths differ, a number is not finite, a support
-    /// is not positive or a covariance is not positive definite. For tests and debug
-    /// builds.
+    /// is not positive or above kMaxSupport, a mean or variance of the first three axes out
+    /// of the bounds above, or a covariance not clearly positive definite, as regularized
+    /// ones are. For loading, tests and debug builds.
     void check() const;
 
     bool operator==(const Mixture& o) const {

@@ -10,6 +10,10 @@
 
 namespace hgmm {
 
+/// Sensors, and frames of maps, lie within this distance of the origin of the map frame
+/// along each axis [m]: in Earth-centred frames, too.
+constexpr double kMaxPosition_m = 1e8;
+
 /// Rigid transform; p_a = R p_b + t for a pose named T_a_b.
 struct Pose {
     Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  ///< rotation, orthonormal
@@ -44,9 +48,9 @@ struct Scan {
     HGMM_EXPORT void reserve(std::size_t n);
     HGMM_EXPORT void pushBack(float px, float py, float pz);
     /// Throws std::invalid_argument if x, y, z or a channel differ in length, the pose is
-    /// not finite or its rotation not orthonormal to 1e-4, or a cleared ray's direction is
-    /// not unit to 1e-3 or its length negative or not finite. Points need not be finite:
-    /// the filter counts and drops those that are not.
+    /// not finite, farther than kMaxPosition_m or its rotation not orthonormal to 1e-4, or
+    /// a cleared ray's direction is not unit to 1e-3 or its length negative or not finite.
+    /// Points need not be finite: the filter counts and drops those that are not.
     HGMM_EXPORT void validate() const;
 };
 

@@ -43,6 +43,12 @@ inline Dual erfc(const Dual& a) {
     return {std::erfc(a.value), -twoOverSqrtPi * std::exp(-a.value * a.value) * a.gradient};
 }
 
+/// Of numbers and dual numbers.
+template <typename T>
+T square(const T& v) {
+    return v * v;
+}
+
 inline double valueOf(double v) {
     return v;
 }

@@ -18,7 +18,7 @@ class LatticeTable {
     /// Makes room for n cells in all.
     void reserve(std::size_t n) {
         std::size_t slots = 16;
-        while (slots < 2 * n) slots *= 2;
+        while (3 * slots < 4 * n) slots *= 2;
         if (slots > slots_.size()) rehash(slots);
     }
 
@@ -94,7 +94,7 @@ class LatticeTable {
             if (slot.used()) slots_[place(slot.cell)] = slot;
     }
 
-    std::vector<Slot> slots_;  ///< a power of two, at most half of them used
+    std::vector<Slot> slots_;  ///< a power of two, at most three of four used
     std::size_t size_ = 0;
 };
 

@@ -5,6 +5,15 @@
 
 namespace hgmm {
 
+namespace {
+
+/// Whether a table is to grow before it holds so many.
+bool isFull(std::size_t used, std::size_t slots) {
+    return 4 * used > 3 * slots;
+}
+
+}  // namespace
+
 BoxIndex::Placement BoxIndex::placementOf(const Box& box) const {
     const float largest = std::max({box.halfExtent[0], box.halfExtent[1], box.halfExtent[2],
                                     std::ldexp(1.F, kMinOctave)});
@@ -20,11 +29,21 @@ BoxIndex::Placement BoxIndex::placementOf(const Box& box) const {
     return p;
 }
 
+bool BoxIndex::reaches(const Box& box, const float* low, const float* high) const {
+    const Placement p = placementOf(box);
+    const float scale = perCell(p.octave);
+    bool meets = true;
+    for (int d = 0; d < 3; ++d)
+        meets = meets && cellOf(low[d], scale) <= p.high[d] &&
+                p.low[d] <= cellOf(high[d], scale);
+    return meets;
+}
+
 void BoxIndex::reserve(std::size_t n) {
-    // As maps go, a box touches some four cells that no other one has touched.
-    constexpr std::size_t slotsPerBox = 8;
+    // As maps go, a box touches some five cells that no other one has touched.
+    constexpr std::size_t cellsPerBox = 5;
     std::size_t slots = 256;
-    while (slots < slotsPerBox * n) slots *= 2;
+    while (isFull(cellsPerBox * n, slots)) slots *= 2;
     if (slots > slots_.size()) growTable(slots);
     placements_.reserve(n);
 }
@@ -42,15 +61,13 @@ void BoxIndex::growTable(std::size_t slots) {
 }
 
 BoxIndex::Slot& BoxIndex::findOrAdd(std::uint64_t key) {
-    if (2 * (usedSlots_ + 1) > slots_.size()) growTable(2 * slots_.size());
+    if (isFull(usedSlots_ + 1, slots_.size())) growTable(2 * slots_.size());
     const std::size_t mask = slots_.size() - 1;
     std::size_t s = hash(key) & mask;
     while (slots_[s].used() && slots_[s].key != key) s = (s + 1) & mask;
     Slot& slot = slots_[s];
     if (!slot.used()) {
         slot.key = key;
-        slot.capacityLog2 = 2;
-        slot.begin = allocate(slot.capacityLog2);
         ++usedSlots_;
     }
     return slot;
@@ -64,7 +81,9 @@ std::uint32_t BoxIndex::allocate(unsigned capacityLog2) {
         return begin;
     }
     const auto begin = static_cast<std::uint32_t>(pool_.size());
-    pool_.resize(pool_.size() + (std::size_t{1} << capacityLog2));
+    const std::size_t size = pool_.size() + (std::size_t{1} << capacityLog2);
+    if (size > pool_.capacity()) pool_.reserve(size + size / 4);
+    pool_.resize(size);
     return begin;
 }
 
@@ -72,27 +91,27 @@ void BoxIndex::add(std::uint64_t key, std::uint32_t i) {
     Slot& slot = findOrAdd(key);
     if (slot.count == 1U << slot.capacityLog2) {
         const std::uint32_t larger = allocate(slot.capacityLog2 + 1);
-        std::copy_n(pool_.begin() + slot.begin, slot.count, pool_.begin() + larger);
-        free_[slot.capacityLog2].push_back(slot.begin);
+        std::copy_n(membersOf(slot), slot.count, pool_.begin() + larger);
+        if (slot.capacityLog2 > 0) free_[slot.capacityLog2].push_back(slot.begin);
         slot.begin = larger;
         ++slot.capacityLog2;
     }
-    const auto first = pool_.begin() + slot.begin, last = first + slot.count;
-    const auto place = std::upper_bound(first, last, i);
+    std::uint32_t *const first = membersOf(slot), *const last = first + slot.count;
+    std::uint32_t* const place = std::upper_bound(first, last, i);
     std::copy_backward(place, last, last + 1);
     *place = i;
     ++slot.count;
 }
 
-bool BoxIndex::remove(std::uint64_t key, std::uint32_t i) {
+void BoxIndex::remove(std::uint64_t key, std::uint32_t i) {
     const Slot* found = find(key);
-    if (found == nullptr) return false;
-    const auto first = pool_.begin() + found->begin, last = first + found->count;
-    const auto member = std::find(first, last, i);
-    if (member == last) return false;
+    if (found == nullptr) return;
+    Slot& slot = slots_[static_cast<std::size_t>(found - slots_.data())];
+    std::uint32_t *const first = membersOf(slot), *const last = first + slot.count;
+    std::uint32_t* const member = std::find(first, last, i);
+    if (member == last) return;
     std::copy(member + 1, last, member);
-    --slots_[static_cast<std::size_t>(found - slots_.data())].count;
-    return true;
+    --slot.count;
 }
 
 void BoxIndex::count(int octave, int boxes) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "base/power_of_two.h"
+#include "index/cell_order.h"
 
 namespace hgmm {
 
@@ -20,7 +22,7 @@ namespace hgmm {
 /// contiguously.
 class BoxIndex {
  public:
-    static constexpr int kMinOctave = -10, kMaxOctave = 20;
+    static constexpr int kMinOctave = -10, kMaxOctave = 30;
 
     struct Box {
         std::array<float, 3> centre{};      ///< [m]
@@ -30,7 +32,7 @@ class BoxIndex {
     /// How large cells are.
     struct Cells {
         int finer = 0;  ///< octaves below those of boxes [octave]
-        /// Boxes so small share cells of 2^leastOctave metres, in [-10, 20].
+        /// Boxes so small share cells of 2^leastOctave metres, in [-10, 30].
         int leastOctave = kMinOctave;
     };
 
@@ -58,11 +60,24 @@ class BoxIndex {
     template <typename Visitor>
     void visitCandidates(float x, float y, float z, Visitor&& visit) const;
 
+    /// Whether visitCandidates may visit a box, once it is entered, at a point between two
+    /// corners.
+    bool reaches(const Box& box, const float* low, const float* high) const;
+
     /// Calls visit(i) for each box in whose cells the ray from `start` along the unit
     /// vector `direction` comes within `length` [m], possibly several times.
     template <typename Visitor>
     void visitAlongRay(const float* start, const float* direction, float length,
                        Visitor&& visit) const;
+
+    /// The same for points that follow each other in few cells: calls visit(i, first, last)
+    /// for each box in whose cells the points first to last - 1 lie. A point's boxes
+    /// come in the order that it gets them in alone.
+    template <typename Visitor>
+    void visitCandidates(const CellOrder& points, std::size_t begin, std::size_t end,
+                         Visitor&& visit) const;
+    /// Octave of the smallest cells in use; 0 if there are none.
+    int smallestOctave() const { return usedOctaveCount_ > 0 ? usedOctaves_[0] : 0; }
 
     /// Heap held [bytes].
     std::size_t liveBytes() const;
@@ -75,7 +90,8 @@ class BoxIndex {
             return octave == o.octave && low == o.low && high == o.high;
         }
     };
-    /// A cell's members are pool_[begin .. begin + count); room for 1 << capacityLog2.
+    /// A cell's members are pool_[begin .. begin + count); room for 1 << capacityLog2. A
+    /// single one, as most cells have, is `begin` itself: capacityLog2 is 0.
     struct Slot {
         std::uint64_t key = kUnused;
         std::uint32_t begin = 0;
@@ -98,16 +114,26 @@ class BoxIndex {
         key *= 0x9E3779B97F4A7C15ULL;
         return static_cast<std::size_t>(key ^ key >> 32U);
     }
-    /// `v` in cells of 1 / perCell metres. Beyond the limit (and for NaN) any cell will do:
-    /// nothing is indexed there.
+    /// `v` in cells of 1 / perCell metres. All that is beyond the limit shares the cells
+    /// there; NaN, which nothing is indexed at, any.
     static std::int32_t cellOf(float v, float perCell) {
-        constexpr float limit = 1 << 30;
+        constexpr std::int32_t kLimit = 1 << 30;
         const float cell = v * perCell;
-        if (!(cell > -limit && cell < limit)) return 1 << 30;
+        if (!(cell > float(-kLimit) && cell < float(kLimit)))
+            return cell < 0 ? -kLimit : kLimit;
         return floorToInt(cell);
     }
     static float perCell(int octave) { return floatPowerOfTwo(-octave); }
 
+    /// Whether a ray passes so many cells, or such far ones, that looking at all boxes is
+    /// better.
+    bool isLongFor(const float* start, float length, float perCell) const {
+        constexpr float kFarthest = 1 << 29;
+        const float farthest =
+            std::max({std::abs(start[0]), std::abs(start[1]), std::abs(start[2])}) + length;
+        return !(farthest * perCell < kFarthest) ||
+               length * perCell > 1000.F + 4.F * static_cast<float>(size());
+    }
     /// What a test of bodies says of a cell.
     template <typename Test>
     static bool holds(Test&& test, int octave, std::int32_t x, std::int32_t y,
@@ -124,13 +150,18 @@ class BoxIndex {
     static void forEachCell(const Placement& p, Visitor&& visit);
     /// Counts a box in or out.
     void count(int octave, int boxes);
+    const std::uint32_t* membersOf(const Slot& slot) const {
+        return slot.capacityLog2 == 0 ? &slot.begin : pool_.data() + slot.begin;
+    }
+    std::uint32_t* membersOf(Slot& slot) {
+        return slot.capacityLog2 == 0 ? &slot.begin : pool_.data() + slot.begin;
+    }
     const Slot* find(std::uint64_t key) const;
     Slot& findOrAdd(std::uint64_t key);
     void growTable(std::size_t slots);
     std::uint32_t allocate(unsigned capacityLog2);
     void add(std::uint64_t key, std::uint32_t i);
-    /// False if it was not there.
-    bool remove(std::uint64_t key, std::uint32_t i);
+    void remove(std::uint64_t key, std::uint32_t i);
 
     Cells cells_;
     std::vector<Placement> placements_;
@@ -188,8 +219,30 @@ void BoxIndex::visitCandidates(float x, float y, float z, Visitor&& visit) const
         const Slot* slot =
             find(keyOf(octave, cellOf(x, scale), cellOf(y, scale), cellOf(z, scale)));
         if (slot == nullptr) continue;
-        const std::uint32_t* member = pool_.data() + slot->begin;
+        const std::uint32_t* member = membersOf(*slot);
         for (std::uint32_t k = 0; k < slot->count; ++k) visit(member[k]);
+    }
+}
+
+template <typename Visitor>
+void BoxIndex::visitCandidates(const CellOrder& points, std::size_t begin, std::size_t end,
+                               Visitor&& visit) const {
+    for (int o = 0; o < usedOctaveCount_; ++o) {
+        const int octave = usedOctaves_[o];
+        const float scale = perCell(octave);
+        const auto keyAt = [&](std::size_t k) {
+            return keyOf(octave, cellOf(points.x[k], scale), cellOf(points.y[k], scale),
+                         cellOf(points.z[k], scale));
+        };
+        std::uint64_t key = begin < end ? keyAt(begin) : kUnused;
+        for (std::size_t first = begin, last = begin; first < end; first = last) {
+            const std::uint64_t cell = key;
+            for (++last; last < end && (key = keyAt(last)) == cell;) ++last;
+            const Slot* slot = find(cell);
+            if (slot == nullptr) continue;
+            const std::uint32_t* member = membersOf(*slot);
+            for (std::uint32_t k = 0; k < slot->count; ++k) visit(member[k], first, last);
+        }
     }
 }
 
@@ -199,21 +252,26 @@ void BoxIndex::visitAlongRay(const float* start, const float* direction, float l
     for (int o = 0; o < usedOctaveCount_; ++o) {
         const int octave = usedOctaves_[o];
         const float scale = perCell(octave);
+        if (isLongFor(start, length, scale)) {
+            for (std::uint32_t i = 0; i < size(); ++i)
+                if (placements_[i].octave == octave) visit(i);
+            continue;
+        }
         // Steps from one cell boundary to the next, along whichever axis comes first.
         std::array<std::int32_t, 3> cell{};
-        std::array<float, 3> toBoundary{}, betweenBoundaries{};
+        std::array<double, 3> toBoundary{}, betweenBoundaries{};
         for (int d = 0; d < 3; ++d) {
             cell[d] = cellOf(start[d], scale);
-            const float speed = std::abs(direction[d]) * scale;
-            betweenBoundaries[d] = speed > 1e-12F ? 1.F / speed : 1e30F;
-            const float inside = start[d] * scale - static_cast<float>(cell[d]);
+            const double speed = std::abs(double(direction[d])) * scale;
+            betweenBoundaries[d] = speed > 1e-12 ? 1.0 / speed : 1e30;
+            const double inside = double(start[d]) * scale - cell[d];
             toBoundary[d] =
-                betweenBoundaries[d] * (direction[d] > 0 ? 1.F - inside : inside);
+                betweenBoundaries[d] * (direction[d] > 0 ? 1.0 - inside : inside);
         }
-        for (float travelled = 0; travelled <= length;) {
+        for (double travelled = 0; travelled <= length;) {
             const Slot* slot = find(keyOf(octave, cell[0], cell[1], cell[2]));
             for (std::uint32_t k = 0; slot != nullptr && k < slot->count; ++k)
-                visit(pool_[slot->begin + k]);
+                visit(membersOf(*slot)[k]);
             int axis = toBoundary[0] < toBoundary[1] ? 0 : 1;
             if (toBoundary[2] < toBoundary[axis]) axis = 2;
             travelled = toBoundary[axis];

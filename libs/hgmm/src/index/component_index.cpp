@@ -5,21 +5,33 @@
 
 namespace hgmm {
 
+BoxIndex::Box ComponentIndex::boxOf(const Gaussian<3>& inflated) const {
+    BoxIndex::Box box;
+    for (int d = 0; d < 3; ++d) {
+        box.centre[d] = static_cast<float>(inflated.mean[d]);
+        box.halfExtent[d] =
+            sigmas_ * static_cast<float>(std::sqrt(inflated.covariance(d, d)));
+    }
+    return box;
+}
+
+bool ComponentIndex::reaches(const Gaussian<3>& component,
+                             const Eigen::AlignedBox3f& box) const {
+    Gaussian<3> inflated = component;
+    inflated.covariance.diagonal().array() += inflationVariance_;
+    return boxes_.reaches(boxOf(inflated), box.min().data(), box.max().data());
+}
+
 void ComponentIndex::update(const Mixture<3>& mixture, std::uint32_t i) {
     if (i > factors_.size())
         throw std::out_of_range("ComponentIndex::update: a gap before it");
     Gaussian<3> g = mixture[i];
-    BoxIndex::Box box;
-    for (int d = 0; d < 3; ++d) {
-        g.covariance(d, d) += inflationVariance_;
-        box.centre[d] = static_cast<float>(g.mean[d]);
-        box.halfExtent[d] = sigmas_ * static_cast<float>(std::sqrt(g.covariance(d, d)));
-    }
+    g.covariance.diagonal().array() += inflationVariance_;
     if (i == factors_.size())
         factors_.emplace_back(g);
     else
         factors_[i] = Factor(g);
-    boxes_.update(i, box);
+    boxes_.update(i, boxOf(g));
 }
 
 void ComponentIndex::rebuild(const Mixture<3>& mixture) {

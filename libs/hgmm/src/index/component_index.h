@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
 
@@ -44,10 +45,32 @@ class ComponentIndex {
         boxes_.visitCandidates(x, y, z, visit);
     }
 
+    /// The same for points in the order of cells: see BoxIndex.
+    template <typename Visitor>
+    void visitCandidates(const CellOrder& points, std::size_t begin, std::size_t end,
+                         Visitor&& visit) const {
+        boxes_.visitCandidates(points, begin, end, visit);
+    }
+    int smallestOctave() const { return boxes_.smallestOctave(); }
+
+    /// Calls visit(i) for each component whose ellipsoid's box the ray from `start` along
+    /// the unit vector `direction` may meet within `length` [m], possibly several times.
+    template <typename Visitor>
+    void visitAlongRay(const float* start, const float* direction, float length,
+                       Visitor&& visit) const {
+        boxes_.visitAlongRay(start, direction, length, visit);
+    }
+
+    /// Whether visitCandidates may visit a component, once it is entered, at a point of a
+    /// box.
+    bool reaches(const Gaussian<3>& component, const Eigen::AlignedBox3f& box) const;
+
     /// Heap held [bytes].
     std::size_t liveBytes() const;
 
  private:
+    BoxIndex::Box boxOf(const Gaussian<3>& inflated) const;
+
     float sigmas_;
     float inflationVariance_;
     std::vector<Factor> factors_;

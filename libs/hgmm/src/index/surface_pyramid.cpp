@@ -1,17 +1,6 @@
 #include "index/surface_pyramid.h"
 
-#include <algorithm>
-
 namespace hgmm {
-
-namespace {
-
-/// The cell of a mean in the smallest octave; those of the others are its parents.
-LatticeCell smallestCell(const Eigen::Matrix<float, 3, 1, Eigen::DontAlign>& mean) {
-    return LatticeCell::at(mean.cast<double>(), SurfacePyramid::kMinOctave);
-}
-
-}  // namespace
 
 void SurfacePyramid::count(const LatticeCell& cell, int change) {
     std::uint32_t& components = *components_.tryEmplace(cell, 0U).first;
@@ -21,8 +10,7 @@ void SurfacePyramid::count(const LatticeCell& cell, int change) {
 
 void SurfacePyramid::reserve(std::size_t n) {
     means_.reserve(n);
-    // Most of the larger cells are shared.
-    components_.reserve(4 * n);
+    components_.reserve(n);
 }
 
 void SurfacePyramid::update(std::uint32_t i, const Eigen::Vector3d& mean) {
@@ -49,8 +37,9 @@ void SurfacePyramid::truncate(std::size_t n) {
 }
 
 bool SurfacePyramid::isNearSurface(const LatticeCell& cell) const {
+    if (cell.octave > kMaxOctave) return true;
     LatticeCell around = cell;
-    around.octave = std::clamp(cell.octave, kMinOctave, kMaxOctave);
+    while (around.octave < minOctave_) around = around.parent();
     if (holds(around)) return true;
     for (std::int32_t* axis : {&around.x, &around.y, &around.z})
         for (const std::int32_t step : {-1, 2, -1}) {

@@ -21,7 +21,8 @@ using Blocks = LatticeTable<Word>;
 /// Of a cell: ten neighbours, and whether none, some or all of it is marked in the lattice
 /// of half its edge.
 constexpr std::size_t kContexts = 3 * 1024;
-constexpr int kMostLevels = 14;
+/// So that a pyramid spans all the blocks that there can be, 2e9 along an axis.
+constexpr int kMostLevels = 17;
 /// Damaged data must not ask for memory without end: real blocks take a byte each.
 constexpr std::uint64_t kMostBlocksPerByte = 64;
 
@@ -135,8 +136,11 @@ Blocks presence(const Blocks& blocks) {
 
 /// The blocks that the cells of the level above say are there, empty.
 std::vector<LatticeCell> children(const Blocks& upper, std::uint64_t most) {
+    constexpr std::int32_t kFarthest = std::numeric_limits<std::int32_t>::max() / 4 - 1;
     std::vector<LatticeCell> found;
     for (const LatticeCell& b : inOrder(upper)) {
+        if (std::max({b.x, b.y, b.z}) > kFarthest)
+            throw FormatError("saved map: a block of coverage is out of range");
         Word word = *upper.find(b);
         for (; word != 0; word &= word - 1) {
             const int bit = __builtin_ctzll(word);
@@ -154,6 +158,14 @@ using Corner = std::array<std::int32_t, 3>;
 
 LatticeCell moved(const LatticeCell& block, const Corner& corner) {
     return {block.octave, block.x + corner[0], block.y + corner[1], block.z + corner[2]};
+}
+
+/// Throws FormatError for a block that could not be moved by the corner of all.
+void requireInRange(const LatticeCell& block, const Corner& corner) {
+    constexpr std::int64_t kLimit = kFarthestCoverageBlock;
+    if (std::max({std::int64_t{block.x} + corner[0], std::int64_t{block.y} + corner[1],
+                  std::int64_t{block.z} + corner[2]}) > kLimit)
+        throw FormatError("saved map: a block of coverage is out of range");
 }
 
 /// Only cells have a finer lattice: the levels above them say where blocks are.
@@ -259,6 +271,7 @@ std::size_t decodeCoverage(const std::uint8_t* data, std::size_t size, Coverage&
             blocks = Blocks();
             Models models(kContexts);
             for (const LatticeCell& block : order) {
+                if (l == 0) requireInRange(block, head.corner);
                 const auto halves = halvesAt(l, coverage, moved(block, head.corner));
                 const Word cells =
                     codeBlock(blocks, block, 0, halves, models,

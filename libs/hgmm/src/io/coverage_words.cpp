@@ -19,11 +19,10 @@ struct BlockWord {
 }  // namespace
 
 bool isCoverageBlock(const LatticeCell& block) {
-    constexpr std::int64_t kFarthest = 1000000000;
     constexpr int kMostOctave = 40;
     bool isOne = block.octave >= -kMostOctave && block.octave <= kMostOctave;
     for (const std::int32_t c : {block.x, block.y, block.z})
-        isOne = isOne && std::abs(std::int64_t{c}) <= kFarthest;
+        isOne = isOne && std::abs(std::int64_t{c}) <= kFarthestCoverageBlock;
     return isOne;
 }
 

@@ -12,6 +12,9 @@ namespace hgmm {
 /// Stands where encoded coverage has the number of its octaves.
 constexpr std::uint8_t kCoverageWords = 255;
 
+/// Farthest block along an axis, in either direction.
+constexpr std::int32_t kFarthestCoverageBlock = 1000000000;
+
 /// Whether a saved block can be one: damaged data may say anything.
 bool isCoverageBlock(const LatticeCell& block);
 

@@ -33,6 +33,10 @@ struct ChannelScale {
     float low = 0, high = 0;          ///< of the means
     std::uint16_t largestChange = 0;  ///< code of kLargestChange
 
+    /// The last code is the highest mean itself.
+    double meanOf(std::uint16_t code) const {
+        return code == kMeanSteps ? high : low + code * perMeanStep();
+    }
     double perMeanStep() const { return (double(high) - low) / kMeanSteps; }
     double perChangeStep() const {
         return kLargestChange.decode(largestChange) / kChangeSteps;
@@ -83,7 +87,7 @@ void getRecord(Reader& in, const Block& block, ChannelRecord& record) {
     for (std::size_t c = 0; c < record.scales->size(); ++c) {
         const ChannelScale& scale = (*record.scales)[c];
         ChannelFit& fit = record.fits[c];
-        fit.mean = scale.low + in.get<std::uint16_t>() * scale.perMeanStep();
+        fit.mean = scale.meanOf(in.get<std::uint16_t>());
         Eigen::Vector3d change;
         for (int d = 0; d < 3; ++d)
             change[d] = in.get<std::int8_t>() * scale.perChangeStep();

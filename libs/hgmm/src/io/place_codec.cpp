@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hgmm {
 
@@ -69,8 +70,14 @@ void putPlace(Writer& out, const Block& block, const Eigen::Vector3d& mean,
 }
 
 void getPlace(Reader& in, const Block& block, Gaussian<3>& g) {
-    for (int d = 0; d < 3; ++d)
-        g.mean[d] = (block[d] + (in.get<std::uint16_t>() + 0.5) / 65536) * kBlock_m;
+    for (int d = 0; d < 3; ++d) {
+        const auto mean = static_cast<float>(
+            (block[d] + (in.get<std::uint16_t>() + 0.5) / 65536) * kBlock_m);
+        // Rounded to the block's far face, it would be the next block's.
+        g.mean[d] = mean < (block[d] + 1.0) * kBlock_m
+                        ? mean
+                        : std::nextafter(mean, std::numeric_limits<float>::lowest());
+    }
     Eigen::Matrix3d L = Eigen::Matrix3d::Zero();
     for (int d = 0; d < 3; ++d) L(d, d) = kSigma.decode(in.get<std::uint8_t>());
     for (int row = 1; row < 3; ++row)

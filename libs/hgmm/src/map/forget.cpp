@@ -1,15 +1,13 @@
 #include <cstdint>
-#include <stdexcept>
 
 #include "hgmm/map.h"
 #include "map/model.h"
+#include "map/require_box.h"
 
 namespace hgmm {
 
 std::size_t Map::forget(const Eigen::AlignedBox3d& box_map) {
-    if (!box_map.min().allFinite() || !box_map.max().allFinite())
-        throw std::invalid_argument("forget: the box is not finite");
-    if (box_map.isEmpty()) throw std::invalid_argument("forget: the box is empty");
+    requireBox(box_map, "forget");
     Model& model = state_->model;
     ComponentStore& store = model.components;
     const std::size_t before = store.size();

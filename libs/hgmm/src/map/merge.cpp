@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include "base/require_rigid.h"
@@ -70,6 +72,34 @@ void mergeSurface(const Gaussian<3>& component, const ViewDirection& view,
     cache.apply(store.takeChanges());
 }
 
+/// Distance of the farthest mean of a mixture from the origin of its frame [m].
+template <int D>
+double farthestMean(const Mixture<D>& mixture) {
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < mixture.size(); ++i)
+        farthest = std::max(
+            farthest, std::hypot(double(mixture.mean[0][i]), double(mixture.mean[1][i]),
+                                 double(mixture.mean[2][i])));
+    return farthest;
+}
+
+/// Throws std::invalid_argument if a map that is moved so would leave the bounds of maps.
+void requireWithinBounds(const Model& from, const Eigen::Vector3d& origin_this,
+                         const Pose& T_local_other) {
+    if (!(origin_this.cwiseAbs().maxCoeff() <= kMaxPosition_m))
+        throw std::invalid_argument(
+            "merge: the origin of the other map comes to lie farther than 1e8 m from the "
+            "origin");
+    double farthest = std::max(farthestMean(from.components.surfaces()),
+                               farthestMean(from.freeSpace.mixture()));
+    for (const ModalityGroup& group : from.modalities.groups())
+        farthest = std::max(farthest, farthestMean(group.mixture().places()));
+    if (!(T_local_other.t.norm() + farthest <= kMaxCoordinate_m))
+        throw std::invalid_argument(
+            "merge: a component of the other map comes to lie farther than 1e9 m from this "
+            "map's origin");
+}
+
 }  // namespace
 
 void Map::merge(const Map& other, const Pose& T_this_other) {
@@ -79,8 +109,11 @@ void Map::merge(const Map& other, const Pose& T_this_other) {
     const Model& from = other.state_->model;
     if (from.isBlank()) return;
     const Eigen::Vector3d otherOrigin_this = T_this_other.R * from.origin + T_this_other.t;
-    if (model.isBlank()) model.origin = otherOrigin_this.array().round();
-    const Pose T_local_other{T_this_other.R, otherOrigin_this - model.origin};
+    const Eigen::Vector3d origin =
+        model.isBlank() ? otherOrigin_this.array().round() : model.origin;
+    const Pose T_local_other{T_this_other.R, otherOrigin_this - origin};
+    requireWithinBounds(from, otherOrigin_this, T_local_other);
+    model.origin = origin;
 
     const std::size_t candidates = model.components.size();
     for (std::size_t i = 0; i < from.components.size(); ++i)

@@ -41,6 +41,7 @@ void QueryCache::Indices::update(const Mixture<3>& base, std::uint32_t i) {
 std::size_t QueryCache::Level::liveBytes() const {
     std::size_t bytes = viewDirections.size() * 4 * sizeof(float) +
                         free.size() * sizeof(float) * (1 + 4 + Mixture<4>::packed);
+    if (const ComponentIndex* made = index.ready()) bytes += made->liveBytes();
     if (const OccupancyModel* made = occupancy.ready()) bytes += made->liveBytes();
     if (const PatchTree<2>* made = patches2D.ready()) bytes += made->liveBytes();
     if (const PatchTree<3>* made = patches3D.ready()) bytes += made->liveBytes();
@@ -57,9 +58,20 @@ const QueryCache::Indices& QueryCache::indices() const {
     return indices_.get([this] {
         const Mixture<3>& base = model_.components.surfaces();
         auto made = std::make_unique<Indices>();
+        made->pyramid =
+            SurfacePyramid(FreeSpace::pyramidOctave(model_.params.occupancy.freeSpace));
         made->components.reserve(base.size());
         made->pyramid.reserve(base.size());
         for (std::uint32_t i = 0; i < base.size(); ++i) made->update(base, i);
+        return made;
+    });
+}
+
+const ComponentIndex& QueryCache::index(std::size_t level) const {
+    if (level == 0) return index();
+    return levelAt(level).index.get([this, level] {
+        auto made = std::make_unique<ComponentIndex>();
+        made->rebuild(mixture(level));
         return made;
     });
 }

@@ -28,6 +28,8 @@ class QueryCache {
 
     /// Components that contain a point, by their 4 sigma ellipsoids.
     const ComponentIndex& index() const { return indices().components; }
+    /// The same of any level.
+    const ComponentIndex& index(std::size_t level) const;
     /// Components whose means lie in a box.
     const CoarseGrid& grid() const { return indices().grid; }
     const SurfacePyramid& pyramid() const { return indices().pyramid; }
@@ -64,7 +66,8 @@ class QueryCache {
         ViewDirections viewDirections;
         Mixture<4> free;
         Coverage coverage;
-        bool hasFeatures = false;  ///< the above are there; upper levels only
+        bool hasFeatures = false;    ///< the above are there; upper levels only
+        Lazy<ComponentIndex> index;  ///< upper levels only
         Lazy<OccupancyModel> occupancy;
         Lazy<PatchTree<2>> patches2D;
         Lazy<PatchTree<3>> patches3D;

@@ -6,6 +6,7 @@
 
 #include "base/byte_stream.h"
 #include "hgmm/map.h"
+#include "io/checksum.h"
 #include "io/component_codec.h"
 #include "io/coverage_codec.h"
 #include "io/coverage_words.h"
@@ -47,24 +48,6 @@ constexpr std::size_t kHeader = 24;
 
 [[noreturn]] void refuse(const RetiredOption& option) {
     throw FormatError(std::string("saved map: ") + option.name + " = 1: " + option.reason);
-}
-
-/// 64-bit checksum, eight bytes at a time: copies inside a particle filter go through here.
-std::uint64_t checksum(const std::uint8_t* data, std::size_t size) {
-    std::uint64_t h = 0xCBF29CE484222325ULL ^ size;
-    const auto mix = [&h](std::uint64_t word) {
-        h = (h ^ word) * 0x9E3779B97F4A7C15ULL;
-        h ^= h >> 32U;
-    };
-    for (; size >= 8; data += 8, size -= 8) {
-        std::uint64_t word = 0;
-        std::memcpy(&word, data, 8);
-        mix(word);
-    }
-    std::uint64_t tail = 0;
-    std::memcpy(&tail, data, size);
-    mix(tail);
-    return h;
 }
 
 void putParams(Writer& out, const MapParams& params) {
@@ -154,10 +137,14 @@ void checkMixture(const Mixture<D>& mixture) {
 }
 
 void checkViewDirections(const ViewDirections& views) {
-    views.forEachArray([](const std::vector<float>& array) {
-        for (const float v : array)
-            if (!std::isfinite(v)) throw FormatError("saved map: a view is not finite");
-    });
+    constexpr double kTolerance = 1e-2;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        const ViewDirection view = views[i];
+        if (!(view.range_m >= 0.0 && view.range_m <= kMaxCoordinate_m))
+            throw FormatError("saved map: the range of a view is out of range");
+        if (view.known() && !(std::abs(view.direction.norm() - 1.0) <= kTolerance))
+            throw FormatError("saved map: the direction of a view is not of unit length");
+    }
 }
 
 /// Free components of the surfaces' own: of a model that maps had before version 0.2.
@@ -273,7 +260,8 @@ Map Map::load(const std::uint8_t* data, std::size_t size) try {
     Map map(getParams(in));
     Model& model = map.state_->model;
     in.get(model.origin.data(), 3);
-    if (!model.origin.allFinite()) throw FormatError("saved map: its origin is not finite");
+    if (!(model.origin.cwiseAbs().maxCoeff() <= kMaxPosition_m))
+        throw FormatError("saved map: its origin is not finite or farther than 1e8 m");
     getComponents(in, version, model);
     if (version < kWithCoverage)
         model.coverage =

@@ -1,5 +1,6 @@
 #include "hgmm/mixture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -10,12 +11,17 @@ namespace hgmm {
 
 namespace {
 
+/// A pivot of the covariance must be more than this share of the trace: regularized()
+/// leaves hundreds of times as much.
+constexpr double kLeastPivot = 1e-9;
+
 template <int D>
 bool isPositiveDefinite(const typename Gaussian<D>::Matrix& covariance) {
     Eigen::Matrix<double, D, D> L = covariance;
+    const double least = kLeastPivot * L.trace();
     for (int i = 0; i < D; ++i) {
         for (int k = 0; k < i; ++k) L(i, i) -= L(i, k) * L(i, k);
-        if (!(L(i, i) > 0)) return false;
+        if (!(L(i, i) > least)) return false;
         L(i, i) = std::sqrt(L(i, i));
         for (int row = i + 1; row < D; ++row) {
             for (int k = 0; k < i; ++k) L(row, i) -= L(row, k) * L(i, k);
@@ -45,7 +51,7 @@ void Mixture<D>::pushBack(const Gaussian<D>& component) {
 
 template <int D>
 void Mixture<D>::set(std::size_t i, const Gaussian<D>& component) {
-    support.at(i) = static_cast<float>(component.support);
+    support.at(i) = static_cast<float>(std::min(component.support, kMaxSupport));
     for (int d = 0; d < D; ++d) mean[d][i] = static_cast<float>(component.mean[d]);
     for (int row = 0, k = 0; row < D; ++row)
         for (int col = row; col < D; ++col, ++k)
@@ -102,6 +108,14 @@ void Mixture<D>::check() const {
     };
     for (std::size_t i = 0; i < size(); ++i) {
         if (!(support[i] > 0)) fail(i, " has no support");
+        if (support[i] > float(kMaxSupport)) fail(i, " has a support beyond 1e12");
+        for (int d = 0; d < std::min(D, 3); ++d) {
+            const float variance = covariance[packedIndex(D, d, d)][i];
+            if (std::abs(mean[d][i]) > float(kMaxCoordinate_m))
+                fail(i, " lies farther than 1e9 m from the map's origin");
+            if (variance < float(kMinVariance_m2) || variance > float(kMaxVariance_m2))
+                fail(i, " has a standard deviation out of [1e-9, 1e8] m");
+        }
         if (!isPositiveDefinite<D>((*this)[i].covariance))
             fail(i, " has a covariance that is not positive definite");
     }

@@ -80,6 +80,21 @@ ChannelMixture ChannelMixture::withChannels(const std::vector<int>& channels) co
     return some;
 }
 
+ChannelMixture ChannelMixture::rows(const std::vector<std::size_t>& rows) const {
+    ChannelMixture some(channels());
+    for (const std::size_t row : rows) some.places_.pushBack(places_[row]);
+    const auto gather = [&](const std::vector<float>& from, std::vector<float>& to) {
+        for (const std::size_t row : rows) to.push_back(from[row]);
+    };
+    for (std::size_t c = 0; c < fits_.size(); ++c) {
+        gather(fits_[c].mean, some.fits_[c].mean);
+        gather(fits_[c].residual, some.fits_[c].residual);
+        for (std::size_t d = 0; d < 3; ++d)
+            gather(fits_[c].slope[d], some.fits_[c].slope[d]);
+    }
+    return some;
+}
+
 void ChannelMixture::check() const {
     places_.check();
     for (const Fits& fits : fits_) {

@@ -55,6 +55,9 @@ class ChannelMixture {
     /// The same components with these channels only, in this order.
     ChannelMixture withChannels(const std::vector<int>& channels) const;
 
+    /// The components of these rows, bit for bit.
+    ChannelMixture rows(const std::vector<std::size_t>& rows) const;
+
     /// Throws std::logic_error like Mixture::check.
     void check() const;
     /// Heap held [bytes].

@@ -71,6 +71,17 @@ Modalities& Modalities::operator=(const Modalities& o) {
     return *this;
 }
 
+Modalities Modalities::within(const Eigen::AlignedBox3f& box) const {
+    Modalities part;
+    part.hierarchy_ = hierarchy_;
+    for (const ModalityGroup& group : groups_) {
+        ModalityGroup some = group.within(box);
+        if (!some.mixture().empty()) part.groups_.push_back(std::move(some));
+    }
+    part.relink();
+    return part;
+}
+
 void Modalities::insert(const Scan& scan, const Pose& T_local_sensor,
                         const MapParams& params) {
     for (const ChannelGroup& together : groupsOf(scan, params.modalities)) {

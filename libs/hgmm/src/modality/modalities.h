@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ class Modalities {
     /// Forgets modalities that params.modalities does not name, and takes over the number
     /// and sizes of levels.
     void configure(const MapParams& params);
+
+    /// What is known of points of a box, in the local frame.
+    Modalities within(const Eigen::AlignedBox3f& box) const;
 
     /// Null if it was never measured.
     const ModalityMap* find(const std::string& name) const;

@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -40,6 +41,9 @@ class ModalityGroup {
     const ChannelMixture& mixture() const { return mixture_; }
     /// The same with some of the modalities only.
     ModalityGroup withNames(const std::vector<std::string>& names) const;
+
+    /// The components that say something of points of a box.
+    ModalityGroup within(const Eigen::AlignedBox3f& box) const;
 
     /// Learns from one scan: samples near a component are known to it, the others novel.
     /// Known ones are added to their component, novel ones to cells of the lattice; where

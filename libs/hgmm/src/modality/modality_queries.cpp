@@ -43,6 +43,14 @@ ModalityGroup ModalityGroup::withNames(const std::vector<std::string>& names) co
     return ModalityGroup(names, mixture_.withChannels(channels));
 }
 
+ModalityGroup ModalityGroup::within(const Eigen::AlignedBox3f& box) const {
+    const ComponentIndex places(PlaceIndex::kReachSigmas);
+    std::vector<std::size_t> rows;
+    for (std::size_t k = 0; k < mixture_.size(); ++k)
+        if (places.reaches(mixture_.places()[k], box)) rows.push_back(k);
+    return ModalityGroup(names_, mixture_.rows(rows));
+}
+
 const ModalityGroup::PlaceIndex& ModalityGroup::index() const {
     return cache_->index.get(
         [this] { return std::make_unique<PlaceIndex>(mixture_.places()); });

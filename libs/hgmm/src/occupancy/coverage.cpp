@@ -46,6 +46,38 @@ void forEachCell(const LatticeCell& block, Coverage::Word word, Visitor&& visit)
     }
 }
 
+/// The cells of a lattice from one to another, both included.
+class CellRange {
+ public:
+    CellRange(const LatticeCell& low, const LatticeCell& high) : low_(low), high_(high) {}
+
+    double blockCount() const {
+        const LatticeCell a = blockOf(low_), b = blockOf(high_);
+        return (1.0 + b.x - a.x) * (1.0 + b.y - a.y) * (1.0 + b.z - a.z);
+    }
+    template <typename Visitor>
+    void forEachBlock(Visitor&& visit) const {
+        const LatticeCell a = blockOf(low_), b = blockOf(high_);
+        for (std::int32_t x = a.x; x <= b.x; ++x)
+            for (std::int32_t y = a.y; y <= b.y; ++y)
+                for (std::int32_t z = a.z; z <= b.z; ++z)
+                    visit(LatticeCell{low_.octave, x, y, z});
+    }
+    /// Those of a block of the lattice.
+    Coverage::Word cellsIn(const LatticeCell& block) const {
+        Coverage::Word cells = 0;
+        forEachCell(block, kAllCells, [&](const LatticeCell& c) {
+            if (c.x >= low_.x && c.x <= high_.x && c.y >= low_.y && c.y <= high_.y &&
+                c.z >= low_.z && c.z <= high_.z)
+                cells |= bitOf(c.x, c.y, c.z);
+        });
+        return cells;
+    }
+
+ private:
+    LatticeCell low_, high_;
+};
+
 /// A segment in units of a lattice's cells, by the share t of its length.
 class CellSegment {
  public:
@@ -217,6 +249,25 @@ void Coverage::merge(const Coverage& other, const Pose& T_local_other) {
             }
         });
     });
+}
+
+void Coverage::copyAround(const Eigen::AlignedBox3d& box, Coverage& part) const {
+    for (const int octave : octaves_) {
+        const double half = powerOfTwo(octave) / 2;
+        const LatticeCell low = LatticeCell::at(box.min().array() - half, octave);
+        LatticeCell high = LatticeCell::at(box.max().array() - half, octave);
+        ++high.x, ++high.y, ++high.z;
+        const CellRange range(low, high);
+        if (range.blockCount() < double(blockCount())) {
+            range.forEachBlock([&](const LatticeCell& block) {
+                part.mark(block, word(block) & range.cellsIn(block));
+            });
+            continue;
+        }
+        forEachBlock([&](const LatticeCell& block, Word cells) {
+            if (block.octave == octave) part.mark(block, cells & range.cellsIn(block));
+        });
+    }
 }
 
 Coverage Coverage::coarsened(int times) const {

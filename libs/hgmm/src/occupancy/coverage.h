@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -54,6 +55,9 @@ class Coverage {
     /// Adds the cells of another map, whose frame has pose T_local_other here. A cell is
     /// marked if its centre lies in a marked one of the other.
     void merge(const Coverage& other, const Pose& T_local_other);
+
+    /// Marks, in another one, the marked cells that at() looks at for points of a box.
+    void copyAround(const Eigen::AlignedBox3d& box, Coverage& part) const;
 
     /// Without the cells in which a coarser lattice says C = 1: they say nothing new.
     Coverage pruned() const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hgmm/params.h"
 #include "mixture/regularized.h"
@@ -15,6 +16,24 @@ constexpr double kSensorSurroundings_m = 0.05;
 
 /// A slab is at most this share of its cell's edge.
 constexpr double kSlabPerCell = 0.5;
+
+/// As a mixture holds it: a component's cell is that of its mean as it is saved.
+Eigen::Vector3d rounded(const Eigen::Vector3d& mean) {
+    return mean.cast<float>().cast<double>();
+}
+
+/// The component with its mean inside its cell, where rounding to float would put it on the
+/// far faces, which are the next cells'.
+Gaussian<4> keptInside(Gaussian<4> component, const LatticeCell& cell) {
+    const std::int32_t axes[3] = {cell.x, cell.y, cell.z};
+    for (int d = 0; d < 3; ++d) {
+        const double end = (axes[d] + 1.0) * powerOfTwo(cell.octave);
+        const auto mean = static_cast<float>(component.mean[d]);
+        if (mean >= end)
+            component.mean[d] = std::nextafter(mean, std::numeric_limits<float>::lowest());
+    }
+    return component;
+}
 
 /// What one scan adds to the lattice, in order of first touch.
 class ScanCells {
@@ -39,6 +58,7 @@ class ScanCells {
             const double to = std::min(end, w + kSlabPerCell * powerOfTwo(cell.octave));
             Gaussian<4> slab = raySegmentMoments(bundle, sensorOrigin_, w, to);
             slab.support = density * std::log(to / w);
+            slab.mean.head<3>() = rounded(slab.mean.head<3>());
             add(slab, LatticeCell::at(slab.mean.head<3>(), cell.octave));
             w = to;
         }
@@ -85,6 +105,13 @@ class ScanCells {
 
 }  // namespace
 
+int FreeSpace::pyramidOctave(const FreeSpaceParams& params) {
+    // Cells of the least range are taken whatever is near.
+    const int smallest =
+        octaveOf(params.freeCellAtOneMetre_m * std::sqrt(kSensorSurroundings_m));
+    return std::clamp(smallest + 1, SurfacePyramid::kMinOctave, SurfacePyramid::kMaxOctave);
+}
+
 std::vector<std::uint32_t> FreeSpace::insert(const std::vector<RayBundle>& bundles,
                                              const Eigen::Vector3d& sensorOrigin,
                                              const SurfacePyramid& pyramid,
@@ -96,33 +123,31 @@ std::vector<std::uint32_t> FreeSpace::insert(const std::vector<RayBundle>& bundl
     std::vector<std::uint32_t> changed;
     for (std::size_t s = 0; s < scan.cells().size(); ++s) {
         const Gaussian<4>& sum = scan.sums()[s];
-        const auto [number, isNew] = componentOf_.tryEmplace(
-            scan.cells()[s], static_cast<std::uint32_t>(cells_.size()));
-        const std::uint32_t i = *number;
-        if (isNew) {
-            cells_.push_back(scan.cells()[s]);
-            mixture_.pushBack(regularized(sum));
-        } else if (mixture_.support[i] < params.freeSettledScans * sum.support) {
-            mixture_.set(i, regularized(mergeMoments(mixture_[i], sum)));
-        } else {
+        const std::uint32_t* known = componentOf_.find(scan.cells()[s]);
+        if (known != nullptr &&
+            !(mixture_.support[*known] < params.freeSettledScans * sum.support))
             continue;
-        }
-        changed.push_back(i);
+        changed.push_back(add(sum, scan.cells()[s]));
     }
     std::sort(changed.begin(), changed.end());
     return changed;
 }
 
-std::uint32_t FreeSpace::merge(const Gaussian<4>& component, int octave) {
-    const LatticeCell cell = LatticeCell::at(component.mean.head<3>(), octave);
+std::uint32_t FreeSpace::merge(Gaussian<4> component, int octave) {
+    component.mean.head<3>() = rounded(component.mean.head<3>());
+    return add(component, LatticeCell::at(component.mean.head<3>(), octave));
+}
+
+std::uint32_t FreeSpace::add(const Gaussian<4>& component, const LatticeCell& cell) {
     const auto [number, isNew] =
         componentOf_.tryEmplace(cell, static_cast<std::uint32_t>(cells_.size()));
     const std::uint32_t i = *number;
     if (isNew) {
         cells_.push_back(cell);
-        mixture_.pushBack(regularized(component));
+        mixture_.pushBack(regularized(keptInside(component, cell)));
     } else {
-        mixture_.set(i, regularized(mergeMoments(mixture_[i], component)));
+        mixture_.set(i,
+                     regularized(keptInside(mergeMoments(mixture_[i], component), cell)));
     }
     return i;
 }

@@ -25,6 +25,10 @@ using RayBundle = Gaussian<3>;
 /// band.
 class FreeSpace {
  public:
+    /// Octave of the smallest cells that insert asks a pyramid about, in the pyramid's
+    /// range.
+    static int pyramidOctave(const FreeSpaceParams& params);
+
     /// Adds the rays of one scan, in the local frame. Returns the changed components,
     /// rising; new ones come last.
     std::vector<std::uint32_t> insert(const std::vector<RayBundle>& bundles,
@@ -35,7 +39,7 @@ class FreeSpace {
 
     /// Adds a component of another map, in the local frame, to the cell of its mean.
     /// Returns which component it became.
-    std::uint32_t merge(const Gaussian<4>& component, int octave);
+    std::uint32_t merge(Gaussian<4> component, int octave);
 
     const Mixture<4>& mixture() const { return mixture_; }
     /// Octave of the cell of component i: its edge is 2^octave m.
@@ -55,6 +59,10 @@ class FreeSpace {
     }
 
  private:
+    /// Adds a component, whose mean lies in the cell and is one of floats, to the cell's.
+    /// Returns which component it became.
+    std::uint32_t add(const Gaussian<4>& component, const LatticeCell& cell);
+
     Mixture<4> mixture_;
     std::vector<LatticeCell> cells_;
     LatticeTable<std::uint32_t> componentOf_;

@@ -11,6 +11,8 @@
 #include "hgmm/regression.h"
 #include "hgmm/view_directions.h"
 #include "index/box_index.h"
+#include "index/component_index.h"
+#include "occupancy/band_kernel.h"
 #include "occupancy/coverage.h"
 #include "occupancy/free_space.h"
 #include "occupancy/sides.h"
@@ -42,6 +44,14 @@ class OccupancyModel {
     /// Throws std::invalid_argument naming the field.
     OccupancyModel(const OccupancyParams& params, const Coverage& coverage);
 
+    /// Answers depend on a component only at points that a BoxIndex with this box leads to.
+    static BoxIndex::Box reachOf(const OccupancyParams& params, const Gaussian<3>& surface,
+                                 const ViewDirection& view);
+    static BoxIndex::Box reachOf(const Gaussian<4>& component);
+    /// Where coverage tells whether space is open behind a surface.
+    static Eigen::Vector3d beyond(const OccupancyParams& params, const Gaussian<3>& surface,
+                                  const ViewDirection& view);
+
     /// Enters or re-enters surface component i <= number of those entered.
     void updateSurface(std::uint32_t i, const Gaussian<3>& surface,
                        const ViewDirection& view);
@@ -55,9 +65,11 @@ class OccupancyModel {
     /// Gradient of Occupancy::occupied [1/m].
     Eigen::Vector3d gradient(const Eigen::Vector3d& point) const;
     /// As Map::castRay. `direction` is a unit vector.
+    /// @param surfaces index of the components that were entered, of kSigmas
     std::optional<RayHit> castRay(const Eigen::Vector3d& origin,
                                   const Eigen::Vector3d& direction,
-                                  const RayCastParams& params) const;
+                                  const RayCastParams& params,
+                                  const ComponentIndex& surfaces) const;
 
     std::size_t liveBytes() const;
 
@@ -67,11 +79,14 @@ class OccupancyModel {
         WhitenedGaussian<3, float> whitened;
         std::array<float, 3> v{};     ///< zero without a view
         float viewPrecision = 0.F;    ///< |v|^2 = u^T Sigma^-1 u [1/m^2]
+        float tau_m = 0.F;            ///< 1 / |v|, thickness along the view
         std::array<float, 3> view{};  ///< unit vector
         float width_m = 0.F, reach_m = 0.F;
         float side_m = 0.F;  ///< so far to each side it tells which side a point is on
         float freePerMetre = 0.F;
         float peak = 0.F;  ///< support times density at the mean [1/m^3]
+
+        bool hasView() const { return viewPrecision > 0; }
     };
     /// A component over (X, W) for thesis eq. (4.4) to (4.9).
     struct Joint {
@@ -116,23 +131,29 @@ class OccupancyModel {
         double peak_m, sigma_m;
     };
 
-    template <typename T>
-    Sums<T> sums(const T* x) const;
+    /// Sums at a point, for its gradient.
+    Sums<Dual> sums(const Dual* x) const;
+    /// The same sums in single precision, several components at a time.
+    Sums<double> sums(const double* x) const;
+    void addBands(const std::uint32_t* ids, int n, const float* point, const float* rest,
+                  Sums<double>& sums) const;
+    void gatherPlace(const Band& band, bands::Lanes& lanes, int k) const;
+    void gatherBand(const Band& band, bands::Lanes& lanes, int k) const;
+    void addFree(const std::uint32_t* ids, float* squared, int n, const double* x,
+                 Sums<double>& sums) const;
     template <typename T>
     Answer<T> answer(const T* x) const;
-    template <typename T>
-    void addBand(const Band& band, const T* x, Sums<T>& sums) const;
+    void addBand(const Band& band, const Dual* x, Sums<Dual>& sums) const;
     template <typename T>
     void addSide(const Band& band, const T& height, const T& beside, Sides<T>& sides) const;
-    template <typename T>
-    void addFree(const Joint& joint, const T* x, Sums<T>& sums) const;
+    void addFree(const Joint& joint, const Dual* x, Sums<Dual>& sums) const;
     /// First and last distance at which the line from `start` along `direction` may meet a
     /// surface; the first is beyond the last if there is none.
     std::pair<double, double> spanAlong(const Eigen::Vector3d& start,
                                         const Eigen::Vector3d& direction) const;
     std::vector<Interval> intervals(const Eigen::Vector3d& origin,
                                     const Eigen::Vector3d& direction, double from_m,
-                                    double to_m) const;
+                                    double to_m, const ComponentIndex& surfaces) const;
     std::optional<double> firstOccupied(const Eigen::Vector3d& origin,
                                         const Eigen::Vector3d& direction,
                                         const Interval& interval, double minOccupied) const;
@@ -140,6 +161,8 @@ class OccupancyModel {
                         double to_m) const;
 
     static Joint jointOf(const Gaussian<4>& g);
+    /// So far to each side a surface tells which side a point is on [m].
+    static float sideOf(const OccupancyParams& params, const ViewDirection& view);
 
     OccupancyParams params_;
     const Coverage& coverage_;
@@ -147,11 +170,10 @@ class OccupancyModel {
     double sharpness_;       ///< of extents against thickness
     std::vector<Band> bands_;
     std::vector<Joint> freeJoints_;
-    BoxIndex bandBoxes_;     ///< surfaces with their bands
-    BoxIndex surfaceBoxes_;  ///< surfaces alone, for rays
+    std::vector<BoxIndex::Box> boxes_;  ///< of bands, kSigmas to each side
+    BoxIndex bandBoxes_;                ///< who is in boxes_
     BoxIndex freeBoxes_;
-    std::vector<BoxIndex::Box> extents_;  ///< of surfaces, kSigmas to each side
-    mutable Lazy<Bounds> bounds_;         ///< of all extents
+    mutable Lazy<Bounds> bounds_;  ///< of all boxes_
 };
 
 }  // namespace hgmm

@@ -20,7 +20,7 @@ std::pair<double, double> OccupancyModel::spanAlong(
     constexpr float far = std::numeric_limits<float>::max();
     const Bounds& bounds = bounds_.get([this] {
         auto made = std::make_unique<Bounds>(Bounds{{far, far, far}, {-far, -far, -far}});
-        for (const BoxIndex::Box& box : extents_)
+        for (const BoxIndex::Box& box : boxes_)
             for (int d = 0; d < 3; ++d) {
                 made->low[d] = std::min(made->low[d], box.centre[d] - box.halfExtent[d]);
                 made->high[d] = std::max(made->high[d], box.centre[d] + box.halfExtent[d]);
@@ -43,12 +43,12 @@ std::pair<double, double> OccupancyModel::spanAlong(
 
 std::vector<OccupancyModel::Interval> OccupancyModel::intervals(
     const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double from_m,
-    double to_m) const {
+    double to_m, const ComponentIndex& surfaces) const {
     std::vector<std::uint32_t> near;
     const Eigen::Vector3f start = (origin + from_m * direction).cast<float>();
     const Eigen::Vector3f along = direction.cast<float>();
-    surfaceBoxes_.visitAlongRay(start.data(), along.data(), float(to_m - from_m),
-                                [&](std::uint32_t i) { near.push_back(i); });
+    surfaces.visitAlongRay(start.data(), along.data(), float(to_m - from_m),
+                           [&](std::uint32_t i) { near.push_back(i); });
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
 
@@ -92,7 +92,7 @@ std::optional<double> OccupancyModel::firstOccupied(const Eigen::Vector3d& origi
     const auto isOccupied = [&](double range) {
         return at(origin + range * direction).occupied >= minOccupied;
     };
-    const double step = interval.sigma_m / kStepsPerSigma;
+    const double step = std::max(interval.sigma_m / kStepsPerSigma, kPrecision_m);
     double above = interval.start_m;
     while (above <= interval.end_m && !isOccupied(above)) above += step;
     if (above > interval.end_m) return std::nullopt;
@@ -107,14 +107,15 @@ std::optional<double> OccupancyModel::firstOccupied(const Eigen::Vector3d& origi
 
 std::optional<RayHit> OccupancyModel::castRay(const Eigen::Vector3d& origin,
                                               const Eigen::Vector3d& direction,
-                                              const RayCastParams& params) const {
+                                              const RayCastParams& params,
+                                              const ComponentIndex& surfaces) const {
     const auto [first, last] = spanAlong(origin, direction);
     const double end = std::min(params.maxRange_m, last);
     double best = std::numeric_limits<double>::infinity();
     double from = std::max(0.0, first), length = kFirstChunk_m;
     for (; from < end && std::isinf(best); from += length, length *= 2)
         for (const Interval& interval :
-             intervals(origin, direction, from, std::min(end, from + length))) {
+             intervals(origin, direction, from, std::min(end, from + length), surfaces)) {
             if (interval.start_m >= best) break;
             const auto range =
                 firstOccupied(origin, direction, interval, params.minOccupied);

@@ -14,7 +14,7 @@ namespace hgmm {
 namespace {
 
 /// Thinner patches would not be finite in floats [m^2].
-constexpr double kMinVariance_m2 = 1e-12;
+constexpr double kLeastVariance_m2 = 1e-12;
 
 /// The tail ends where it would add so much of the outlier ratio.
 constexpr double kTailEnd = 0.5;
@@ -143,7 +143,7 @@ void SurfaceLikelihood::Impl::enter(const Mixture<3>& mixture, std::uint32_t i) 
     const Eigen::Matrix3d covariance = g.covariance;
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
     solver.computeDirect(covariance);
-    const double thickness_m2 = std::max(solver.eigenvalues()[0], kMinVariance_m2);
+    const double thickness_m2 = std::max(solver.eigenvalues()[0], kLeastVariance_m2);
     Patch patch;
     Eigen::Vector3d reach = Eigen::Vector3d::Zero();
     for (int a = 0; a < 3; ++a) {

@@ -19,6 +19,8 @@ constexpr float kReach = 3.F;
 constexpr double kMaxAspect = 30.0;
 /// Thickness of a surface that is taken for exact [m].
 constexpr double kThinnest_m = 1e-3;
+/// Least radius of gyration: a single component turns about itself [m].
+constexpr double kShortest_m = 0.1;
 /// Source components that one thread sums at a time.
 constexpr std::size_t kPairsPerChunk = 32;
 
@@ -36,19 +38,6 @@ Eigen::Matrix3d widenedShape(const Eigen::Matrix3d& axes, const Eigen::Vector3d&
     const Eigen::Array3d aspect2 = (own / own.minCoeff()).min(kMaxAspect * kMaxAspect);
     const Eigen::Vector3d sum = own + width_m * width_m * aspect2;
     return axes * sum.asDiagonal() * axes.transpose();
-}
-
-/// Square root of the moments of inertia of points with these second moments [m^2], at
-/// least `shortest_m`.
-Eigen::Matrix3d gyrationRadiiOf(const Eigen::Matrix3d& moments, double shortest_m) {
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-    eigen.computeDirect(moments);
-    const Eigen::Vector3d about =
-        Eigen::Vector3d::Constant(moments.trace()) - eigen.eigenvalues();
-    const Eigen::Vector3d gyrationRadii =
-        about.cwiseMax(shortest_m * shortest_m).cwiseSqrt();
-    return eigen.eigenvectors() * gyrationRadii.asDiagonal() *
-           eigen.eigenvectors().transpose();
 }
 
 /// Keeps the nearest of the components within kReach of p, equally near ones in the
@@ -71,6 +60,17 @@ void findNearest(const ComponentIndex& index, const Eigen::Vector3f& p, Neighbou
 
 }  // namespace
 
+Eigen::Matrix3d gyrationRadiiOf(const Eigen::Matrix3d& moments) {
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+    eigen.computeDirect(moments);
+    const Eigen::Vector3d about =
+        Eigen::Vector3d::Constant(moments.trace()) - eigen.eigenvalues();
+    const Eigen::Vector3d gyrationRadii =
+        about.cwiseMax(kShortest_m * kShortest_m).cwiseSqrt();
+    return eigen.eigenvectors() * gyrationRadii.asDiagonal() *
+           eigen.eigenvectors().transpose();
+}
+
 RegistrationSource::RegistrationSource(const Mixture<3>& mixture) {
     for (std::size_t i = 0; i < mixture.size(); ++i) {
         const Gaussian<3> g = mixture[i];
@@ -89,9 +89,8 @@ RegistrationSource::RegistrationSource(const Mixture<3>& mixture) {
         sum += mean[i].squaredNorm();
         moments += mean[i] * mean[i].transpose() + covariance[i];
     }
-    constexpr double kShortest_m = 0.1;  // a single component turns about itself
     gyrationRadius_m = std::max(std::sqrt(sum / double(mean.size())), kShortest_m);
-    gyrationRadii = gyrationRadiiOf(moments / double(mean.size()), kShortest_m);
+    gyrationRadii = gyrationRadiiOf(moments / double(mean.size()));
 }
 
 double RegistrationSource::shareOf(const std::vector<Neighbours>& neighbours) const {

@@ -24,6 +24,10 @@ struct Neighbours {
     std::array<std::uint32_t, kMost> target{kNobody, kNobody};
 };
 
+/// Square root of the moments of inertia of points with these second moments [m^2] about
+/// their centre: a small rotation w moves them by |gyrationRadii w|, rms [m].
+Eigen::Matrix3d gyrationRadiiOf(const Eigen::Matrix3d& moments);
+
 /// The source's components about their centre.
 struct RegistrationSource {
     explicit RegistrationSource(const Mixture<3>& mixture);

@@ -6,6 +6,7 @@
 #include <deque>
 #include <limits>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,8 @@ struct RecordingOptions {
     std::size_t from = 0;                  ///< first scan that is needed [index]
     std::size_t to = std::numeric_limits<std::size_t>::max();  ///< last one [index]
     bool posesRequired = true;  ///< false: scans without known poses are at the origin
+    /// Label of the only sensor whose observations count; all if there is none.
+    std::optional<std::string> sensorLabel = std::nullopt;
 };
 
 /// Poses of a file are interpolated where the nearest is not farther away than this [s].
@@ -59,6 +62,8 @@ class Recording {
     PoseSource poseSource() const { return poseSource_; }
     /// MRPT class of the first scan's observation.
     const std::string& sensor() const { return sensor_; }
+    /// Labels of the sensors of all scans, those that do not count included, sorted.
+    const std::set<std::string>& sensorLabels() const { return sensorLabels_; }
     /// RawlogReader::damage(), with the number of scans that are left; empty for a whole
     /// file.
     const std::string& damage() const { return damage_; }
@@ -66,6 +71,8 @@ class Recording {
  private:
     struct Survey;
 
+    void collectScans(const mrpt::serialization::CSerializable::Ptr& entry,
+                      std::deque<mrpt::obs::CObservation::Ptr>& scans) const;
     void resolvePoses(const Survey& survey);
     void posesFromFile(const Survey& survey);
 
@@ -74,6 +81,7 @@ class Recording {
     std::vector<mrpt::poses::CPose3D> T_map_robot_;  // of scan from + i
     PoseSource poseSource_ = PoseSource::identity;
     std::string sensor_;
+    std::set<std::string> sensorLabels_;
     std::string damage_;
 
     RawlogReader reader_;

@@ -1,0 +1,233 @@
+#include "hgmm/tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/require_rigid.h"
+#include "registration/surface_alignment.h"
+#include "tracking/local_map.h"
+#include "tracking/motion.h"
+
+namespace hgmm {
+
+namespace {
+
+/// Where little is found, registration looks so far about the prior [m], [rad].
+constexpr double kSearch_m = 0.7, kSearch_rad = 0.4;
+/// What it finds may be off by this much [m], [rad].
+constexpr SearchRadius kFound{0.1, 0.02};
+/// It is taken if it explains so much more of the scan [1].
+constexpr double kBetterBy = 0.05;
+
+Matrix6d covarianceOf(const SearchRadius& deviation) {
+    Vector6d variance;
+    variance << Eigen::Vector3d::Constant(deviation.angle_rad * deviation.angle_rad),
+        Eigen::Vector3d::Constant(deviation.width_m * deviation.width_m);
+    return variance.asDiagonal();
+}
+
+/// Standard deviations of position and rotation, of all axes together.
+SearchRadius deviationOf(const Matrix6d& covariance) {
+    return {std::sqrt(covariance.bottomRightCorner<3, 3>().trace()),
+            std::sqrt(covariance.topLeftCorner<3, 3>().trace())};
+}
+
+SearchRadius wider(const SearchRadius& a, const SearchRadius& b) {
+    return {std::max(a.width_m, b.width_m), std::max(a.angle_rad, b.angle_rad)};
+}
+
+}  // namespace
+
+void TrackerParams::validate() const {
+    requireInRange("firstDeviation_m", firstDeviation_m, 1e-3, 1e3);
+    requireInRange("firstDeviation_rad", firstDeviation_rad, 1e-4, 1.0);
+    requireInRange("maxSamples", maxSamples, 50, 1e7);
+    requireInRange("minOverlap", minOverlap, 1e-6, 1.0);
+    requireInRange("insertEvery_m", insertEvery_m, 0.0, 1e3);
+    requireInRange("insertEvery_rad", insertEvery_rad, 0.0, 7.0);
+    requireInRange("mapRadius_m", mapRadius_m, 1.0, 1e6);
+}
+
+struct ScanTracker::Impl {
+    Impl(const MapParams& mapParams, const TrackerParams& trackerParams,
+         const PoseEstimate& start)
+        : params(checked(trackerParams)),
+          pose(start),
+          deviation({params.firstDeviation_m, params.firstDeviation_rad}),
+          local(mapParams, params) {
+        requireRigid(start.T_map_sensor, "tracker: the start");
+    }
+
+    static const TrackerParams& checked(const TrackerParams& params) {
+        params.validate();
+        return params;
+    }
+    void require(const Scan& scan, double time_s,
+                 const std::optional<MotionIncrement>& odometry,
+                 const std::vector<float>& pointTimes_s) const;
+    double sinceLast(double time_s) const;
+    PoseEstimate predict(double time_s,
+                         const std::optional<MotionIncrement>& odometry) const;
+    const Map& map() const { return given ? *given : *local.map(); }
+    SurfaceAlignment align(const PoseEstimate& prior);
+    SurfaceAlignment alignedFrom(const PoseEstimate& prior, const SearchRadius& off,
+                                 const AlignmentSamples& few) const;
+    void renewTarget();
+
+    TrackerParams params;
+    PoseEstimate pose;             ///< of the last scan
+    std::optional<double> time_s;  ///< of the last scan
+    std::optional<Velocity> velocity;
+    PriorDeviation deviation;
+    ScanSamples samples;  ///< of the last scan
+    LocalMap local;
+    std::shared_ptr<const Map> given;  ///< null: odometry
+    std::unique_ptr<PatchTree<3>> target;
+};
+
+void ScanTracker::Impl::require(const Scan& scan, double time,
+                                const std::optional<MotionIncrement>& odometry,
+                                const std::vector<float>& pointTimes_s) const {
+    scan.validate();
+    if (!std::isfinite(time))
+        throw std::invalid_argument("tracker: the time is not finite");
+    if (time_s && time < *time_s)
+        throw std::invalid_argument("tracker: a scan is earlier than the last");
+    if (odometry) requireRigid(odometry->T_last_now, "tracker: odometry");
+    if (!pointTimes_s.empty() && pointTimes_s.size() != scan.size())
+        throw std::invalid_argument("tracker: another number of times than of points");
+}
+
+double ScanTracker::Impl::sinceLast(double time) const {
+    return time_s ? time - *time_s : 0.0;
+}
+
+PoseEstimate ScanTracker::Impl::predict(
+    double time, const std::optional<MotionIncrement>& odometry) const {
+    if (!time_s) return pose;
+    if (odometry) return compose(pose, *odometry);
+    MotionIncrement motion;
+    if (velocity) motion.T_last_now = velocity->after(sinceLast(time));
+    motion.covariance = covarianceOf(deviation.now());
+    return compose(pose, motion);
+}
+
+SurfaceAlignment ScanTracker::Impl::alignedFrom(const PoseEstimate& prior,
+                                                const SearchRadius& off,
+                                                const AlignmentSamples& few) const {
+    AlignmentPrior about;
+    about.T_target_sensor = {prior.T_map_sensor.R, prior.T_map_sensor.t - map().origin()};
+    about.covariance = prior.covariance;
+    about.deviation = off;
+    SurfaceAlignment found = alignToSurfaces(*target, few, about);
+    found.T_target_sensor.R = orthonormal(found.T_target_sensor.R);
+    return found;
+}
+
+SurfaceAlignment ScanTracker::Impl::align(const PoseEstimate& prior) {
+    const AlignmentSamples few(samples.samples_sensor, samples.normalOfRays_sensor,
+                               static_cast<std::size_t>(params.maxSamples));
+    const SearchRadius off = wider(deviation.now(), deviationOf(prior.covariance));
+    SurfaceAlignment found = alignedFrom(prior, off, few);
+    if (found.overlap < params.minOverlap) {
+        RegistrationParams search;
+        search.coarseWidth_m = kSearch_m;
+        search.coarseAngle_rad = kSearch_rad;
+        std::vector<const Mixture<3>*> levels;
+        for (std::size_t level = map().levelCount(); level > 0; --level)
+            levels.push_back(&map().mixture(level - 1));
+        const Registration coarse = registerMixtures(
+            levels, samples.samples_sensor,
+            {prior.T_map_sensor.R, prior.T_map_sensor.t - map().origin()}, search);
+        if (coarse.converged) {
+            PoseEstimate start = prior;
+            start.T_map_sensor = {orthonormal(coarse.T_target_source.R),
+                                  coarse.T_target_source.t + map().origin()};
+            start.covariance =
+                Matrix6d(prior.covariance) + covarianceOf({kSearch_m, kSearch_rad});
+            const SurfaceAlignment farther = alignedFrom(start, kFound, few);
+            if (farther.overlap > found.overlap + kBetterBy) found = farther;
+        }
+    }
+    return found;
+}
+
+void ScanTracker::Impl::renewTarget() {
+    target = std::make_unique<PatchTree<3>>(map().mixture());
+}
+
+ScanTracker::ScanTracker(const MapParams& mapParams, const TrackerParams& params,
+                         const PoseEstimate& start)
+    : impl_(std::make_unique<Impl>(mapParams, params, start)) {}
+
+ScanTracker::ScanTracker(std::shared_ptr<const Map> map, const PoseEstimate& start,
+                         const TrackerParams& params) {
+    if (!map || map->empty()) throw std::invalid_argument("tracker: the map is empty");
+    impl_ = std::make_unique<Impl>(map->params(), params, start);
+    impl_->given = std::move(map);
+    impl_->renewTarget();
+}
+
+ScanTracker::ScanTracker(ScanTracker&&) noexcept = default;
+ScanTracker& ScanTracker::operator=(ScanTracker&&) noexcept = default;
+ScanTracker::~ScanTracker() = default;
+
+TrackedPose ScanTracker::track(const Scan& scan, double time_s,
+                               const std::optional<MotionIncrement>& odometry,
+                               const std::vector<float>& pointTimes_s) {
+    Impl& t = *impl_;
+    t.require(scan, time_s, odometry, pointTimes_s);
+    const double duration_s = t.sinceLast(time_s);
+    const PoseEstimate prior = t.predict(time_s, odometry);
+    Velocity velocity = t.velocity.value_or(Velocity());
+    if (odometry && duration_s > 0.0)
+        velocity = Velocity::of(odometry->T_last_now, duration_s);
+    t.samples = samplesOf(
+        pointTimes_s.empty() ? scan : motionTakenOut(scan, pointTimes_s, velocity),
+        t.map().params());
+
+    TrackedPose now;
+    static_cast<PoseEstimate&>(now) = prior;
+    if (!t.map().empty()) {
+        const SurfaceAlignment found = t.align(prior);
+        now.overlap = found.overlap;
+        now.observable = found.observable;
+        now.lost = found.overlap < t.params.minOverlap;
+        if (!now.lost) {
+            now.T_map_sensor = {found.T_target_sensor.R,
+                                found.T_target_sensor.t + t.map().origin()};
+            now.covariance = found.covariance;
+            t.deviation.learn(prior.T_map_sensor, now.T_map_sensor);
+        }
+    }
+    if (now.lost)
+        t.velocity.reset();
+    else if (t.time_s && duration_s > 0.0)
+        t.velocity =
+            Velocity::of(t.pose.T_map_sensor.inverse() * now.T_map_sensor, duration_s);
+    t.pose = now;
+    t.time_s = time_s;
+    if (!t.given && !now.lost && t.local.insert(t.samples, now.T_map_sensor)) {
+        now.inserted = true;
+        t.renewTarget();
+    }
+    return now;
+}
+
+void ScanTracker::moveTo(const PoseEstimate& estimate) {
+    requireRigid(estimate.T_map_sensor, "tracker: the pose");
+    impl_->pose = estimate;
+    impl_->velocity.reset();
+    impl_->deviation.restart();
+}
+
+const Map& ScanTracker::map() const {
+    return impl_->map();
+}
+
+const ScanSamples& ScanTracker::lastSamples() const {
+    return impl_->samples;
+}
+
+}  // namespace hgmm

@@ -1,0 +1,77 @@
+#pragma once
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "hgmm/map.h"
+#include "hgmm/slam/closure.h"
+#include "hgmm/slam/pose_graph.h"
+#include "hgmm/slam/submap.h"
+
+namespace hgmm::slam {
+
+/// What odometry does not say of its own errors: a random walk.
+struct DriftParams {
+    double shiftPerMetre = 0.02;  ///< after 1 m, one sigma; grows with the root [m], > 0
+    double turnPerMetre_rad = 0.003;  ///< the same of the rotation [rad], > 0
+    double turnPerTurn = 0.01;        ///< share of a turn [1], > 0
+
+    /// Throws std::invalid_argument naming the field.
+    void validate() const;
+};
+
+struct SlamParams {
+    SubmapParams submap;
+    DriftParams drift;
+    ClosureParams closure;
+    OptimisationParams optimisation;
+
+    /// Throws std::invalid_argument naming the field.
+    void validate() const;
+};
+
+/// Simultaneous localisation and mapping behind an odometry: scans make submaps
+/// (hgmm::Map), finished submaps are compared with older ones, and what is found to be the
+/// same place moves the submaps, whose maps stay as they are, until a map is asked for.
+///
+/// Closures are looked for on a thread of their own while the next submap is made, and
+/// enter the graph when that one is finished: the result is the same for any number of
+/// threads. Memory grows with the map, and with a pose a scan.
+class SubmapSlam {
+ public:
+    /// Throws std::invalid_argument for params out of range.
+    explicit SubmapSlam(const MapParams& map = {}, const SlamParams& params = {});
+    ~SubmapSlam();
+    SubmapSlam(const SubmapSlam&) = delete;
+    SubmapSlam& operator=(const SubmapSlam&) = delete;
+
+    /// Inserts one more scan.
+    /// @param scan samplesOf(scan, params of the map), which odometry may share
+    /// @param T_robot_sensor where the sensor is on the robot
+    /// @param T_previous_robot how the robot moved since the scan before, as odometry has
+    /// it; of no meaning for the first one
+    /// Throws std::invalid_argument for a pose that is not finite or not rigid.
+    void add(const ScanSamples& scan, const Pose& T_robot_sensor,
+             const UncertainPose& T_previous_robot);
+
+    /// Waits for closures, and closes the submap at hand: what is asked below is final.
+    void finish();
+
+    /// Where the robot was at each scan, as is known now.
+    std::vector<Pose> trajectory() const;
+    /// Where the robot is.
+    Pose T_world_robot() const;
+    /// Nodes are submaps.
+    const PoseGraph& graph() const;
+    /// Closures that are in the graph.
+    std::size_t closures() const;
+    std::size_t submaps() const;
+    /// All submaps merged as they lie now (Map::merge).
+    Map fusedMap() const;
+
+ private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hgmm::slam

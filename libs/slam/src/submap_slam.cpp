@@ -1,0 +1,213 @@
+#include "hgmm/slam/submap_slam.h"
+
+#include <algorithm>
+#include <cmath>
+#include <future>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "closure_pool.h"
+
+namespace hgmm::slam {
+namespace {
+
+using SharedSubmap = std::shared_ptr<const FinishedSubmap>;
+
+/// Odometry's own covariance, and the drift that it does not know of.
+UncertainPose withDrift(const UncertainPose& motion, const DriftParams& drift) {
+    const double way_m = motion.T_a_b.t.norm();
+    const double turn_rad = rotationVectorOf(motion.T_a_b.R).norm();
+    UncertainPose drifting = motion;
+    drifting.covariance.topLeftCorner<3, 3>().diagonal().array() +=
+        1e-8 + drift.turnPerMetre_rad * drift.turnPerMetre_rad * way_m +
+        std::pow(drift.turnPerTurn * turn_rad, 2);
+    drifting.covariance.bottomRightCorner<3, 3>().diagonal().array() +=
+        1e-6 + drift.shiftPerMetre * drift.shiftPerMetre * way_m;
+    return drifting;
+}
+
+void requireRigid(const Pose& pose, const char* name) {
+    const Eigen::Matrix3d off = pose.R.transpose() * pose.R - Eigen::Matrix3d::Identity();
+    if (!pose.t.allFinite() || !(off.cwiseAbs().maxCoeff() < 1e-3))
+        throw std::invalid_argument(std::string(name) + ": is not a rigid transform");
+}
+
+/// Median distance of a scan's samples [m]; 0 without any.
+double medianRange(const Mixture<3>& samples_sensor) {
+    std::vector<float> squares;
+    for (std::size_t i = 0; i < samples_sensor.size(); ++i) {
+        float square = 0;
+        for (const std::vector<float>& axis : samples_sensor.mean)
+            square += axis[i] * axis[i];
+        squares.push_back(square);
+    }
+    if (squares.empty()) return 0.0;
+    const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+    std::nth_element(squares.begin(), middle, squares.end());
+    return std::sqrt(static_cast<double>(*middle));
+}
+
+/// The verified closures of the newest of some submaps.
+std::vector<PoseEdge> closuresOf(const std::vector<SharedSubmap>& submaps,
+                                 const PoseGraph& graph, const ClosureParams& params) {
+    const std::size_t newest = submaps.size() - 1;
+    std::vector<PoseEdge> found;
+    for (const Candidate& c : candidatesFor(submaps, graph, newest, params)) {
+        const auto pose =
+            verifiedPose(*submaps[c.target], *submaps[newest], c.T_target_source, params);
+        if (pose) found.push_back({c.target, newest, *pose, PoseEdge::Kind::closure});
+    }
+    return found;
+}
+
+}  // namespace
+
+void DriftParams::validate() const {
+    for (const auto& [name, value] : {std::pair{"shiftPerMetre", shiftPerMetre},
+                                      std::pair{"turnPerMetre_rad", turnPerMetre_rad},
+                                      std::pair{"turnPerTurn", turnPerTurn}})
+        if (!(value > 0))
+            throw std::invalid_argument(std::string(name) + ": must be positive");
+}
+
+void SlamParams::validate() const {
+    submap.validate();
+    drift.validate();
+    closure.validate();
+    optimisation.validate();
+}
+
+struct SubmapSlam::Impl {
+    Impl(const MapParams& map, const SlamParams& slam)
+        : mapParams(map), params(slam), pool(slam.optimisation), current(map) {}
+
+    void begin(const Pose& T_world_robot) {
+        current = Submap(mapParams);
+        T_submap_robot = {};
+        T_submap_robot.T_a_b.R = T_world_robot.R;
+        graph.T_world_node.push_back({Eigen::Matrix3d::Identity(), T_world_robot.t});
+    }
+
+    bool isComplete() const {
+        const SubmapParams& p = params.submap;
+        const double length_m =
+            std::clamp(p.lengthPerRange * range_m, p.minLength_m, p.maxLength_m);
+        return static_cast<int>(current.T_submap_robot.size()) >= p.minScans &&
+               (current.length_m >= length_m || current.turn_rad >= p.maxTurn_rad);
+    }
+
+    /// Lets closures that were looked for behind enter, and looks for those of the submap
+    /// at hand, which is finished.
+    void complete() {
+        enterClosures();
+        submaps.push_back(std::make_shared<const FinishedSubmap>(std::move(current)));
+        search = std::async(std::launch::async, closuresOf, submaps, graph, params.closure);
+    }
+
+    /// Finishes the submap at hand and begins the next one where the robot is.
+    void next() {
+        const UncertainPose T_last_robot = T_submap_robot;
+        complete();
+        const std::size_t last = submaps.size() - 1;
+        begin(graph.T_world_node[last] * T_last_robot.T_a_b);
+        UncertainPose T_last_next = T_last_robot;
+        T_last_next.T_a_b = graph.T_world_node[last].inverse() * graph.T_world_node.back();
+        graph.edges.push_back({last, last + 1, T_last_next, PoseEdge::Kind::odometry});
+    }
+
+    void move(const UncertainPose& motion) {
+        T_submap_robot = T_submap_robot * motion;
+        T_submap_robot.T_a_b.R = orthonormal(T_submap_robot.T_a_b.R);
+        current.length_m += motion.T_a_b.t.norm();
+        current.turn_rad += rotationVectorOf(motion.T_a_b.R).norm();
+    }
+
+    void enterClosures() {
+        if (search.valid()) closures += pool.enter(search.get(), graph);
+    }
+
+    Pose robot() const { return graph.T_world_node.back() * T_submap_robot.T_a_b; }
+
+    /// Submap k, finished or at hand.
+    const Submap& submap(std::size_t k) const {
+        return k < submaps.size() ? submaps[k]->submap : current;
+    }
+
+    MapParams mapParams;
+    SlamParams params;
+    PoseGraph graph;
+    ClosurePool pool;
+    std::vector<SharedSubmap> submaps;
+    std::future<std::vector<PoseEdge>> search;
+    std::size_t closures = 0;
+
+    Submap current;
+    UncertainPose T_submap_robot;  // of the robot in the submap at hand
+    double range_m = 0.0;          // median of scans, smoothed
+    bool started = false;
+};
+
+SubmapSlam::SubmapSlam(const MapParams& map, const SlamParams& params) {
+    params.validate();
+    map.validate();
+    impl_ = std::make_unique<Impl>(map, params);
+}
+
+SubmapSlam::~SubmapSlam() = default;
+
+void SubmapSlam::add(const ScanSamples& scan, const Pose& T_robot_sensor,
+                     const UncertainPose& T_previous_robot) {
+    Impl& s = *impl_;
+    requireRigid(T_robot_sensor, "T_robot_sensor");
+    requireRigid(T_previous_robot.T_a_b, "T_previous_robot");
+    const double range_m = medianRange(scan.samples_sensor);
+    if (!s.started) {
+        s.begin({});
+        s.range_m = range_m;
+        s.started = true;
+    } else {
+        s.move(withDrift(T_previous_robot, s.params.drift));
+        s.range_m += 0.1 * (range_m - s.range_m);
+        if (s.isComplete()) s.next();
+    }
+    s.current.map.insert(scan, s.T_submap_robot.T_a_b * T_robot_sensor);
+    s.current.T_submap_robot.push_back(s.T_submap_robot.T_a_b);
+}
+
+void SubmapSlam::finish() {
+    Impl& s = *impl_;
+    if (s.started && s.submaps.size() < s.graph.T_world_node.size()) s.complete();
+    s.enterClosures();
+}
+
+std::vector<Pose> SubmapSlam::trajectory() const {
+    std::vector<Pose> poses;
+    for (std::size_t k = 0; k < impl_->graph.T_world_node.size(); ++k)
+        for (const Pose& T_submap_robot : impl_->submap(k).T_submap_robot)
+            poses.push_back(impl_->graph.T_world_node[k] * T_submap_robot);
+    return poses;
+}
+
+Pose SubmapSlam::T_world_robot() const {
+    return impl_->started ? impl_->robot() : Pose{};
+}
+
+const PoseGraph& SubmapSlam::graph() const {
+    return impl_->graph;
+}
+std::size_t SubmapSlam::closures() const {
+    return impl_->closures;
+}
+std::size_t SubmapSlam::submaps() const {
+    return impl_->graph.T_world_node.size();
+}
+
+Map SubmapSlam::fusedMap() const {
+    Map fused(impl_->mapParams);
+    for (std::size_t k = 0; k < impl_->graph.T_world_node.size(); ++k)
+        fused.merge(impl_->submap(k).map, impl_->graph.T_world_node[k]);
+    return fused;
+}
+
+}  // namespace hgmm::slam

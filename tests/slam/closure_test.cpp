@@ -1,0 +1,132 @@
+#include "hgmm/slam/closure.h"
+
+#include <gtest/gtest.h>
+
+#include "walk.h"
+
+namespace hgmm::slam {
+namespace {
+
+using namespace testing;
+
+/// What is seen along a few true poses, in the frame of the first.
+FinishedSubmap submapOf(const Scene& scene, const std::vector<Pose>& truth) {
+    Submap submap{MapParams{}};
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        submap.T_submap_robot.push_back(truth[0].inverse() * truth[i]);
+        submap.map.insert(samplesAt(scene, truth[i], i), submap.T_submap_robot.back());
+    }
+    return FinishedSubmap(std::move(submap));
+}
+
+std::vector<Pose> posesAlong(double x0, double x1, double y, double yaw_rad) {
+    std::vector<Pose> poses;
+    for (int k = 0; k < 6; ++k)
+        poses.push_back({rotationOf({0, 0, yaw_rad}), {x0 + (x1 - x0) * k / 5.0, y, 0}});
+    return poses;
+}
+
+UncertainPose guess(const Pose& pose, double off_m, double off_rad, double sigma_m,
+                    double sigma_rad) {
+    Vector6d error;
+    error << 0, 0, off_rad, off_m, -off_m, 0;
+    UncertainPose guessed{displacedBy(pose, error), Matrix6d::Zero()};
+    guessed.covariance.diagonal() << 1e-6, 1e-6, sigma_rad * sigma_rad, sigma_m * sigma_m,
+        sigma_m * sigma_m, 1e-6;
+    return guessed;
+}
+
+TEST(Closure, FindsThePoseOfASubmapSeenTheOtherWay) {
+    const Scene scene = ringCorridor();
+    const auto there = posesAlong(-6, -1, -6, 0.0), back = posesAlong(0, -5, -6.2, M_PI);
+    const FinishedSubmap target = submapOf(scene, there), source = submapOf(scene, back);
+    const Pose truth = there[0].inverse() * back[0];
+    const auto found =
+        verifiedPose(target, source, guess(truth, 1.0, 0.3, 1.2, 0.4), ClosureParams{});
+    ASSERT_TRUE(found);
+    const Vector6d error = errorOf(found->T_a_b, truth);
+    EXPECT_LT(error.tail<3>().norm(), 0.05);
+    EXPECT_LT(error.head<3>().norm(), 0.01);
+    EXPECT_LT(squaredMahalanobis(error, found->covariance), kChiSquareOfSix);
+}
+
+TEST(Closure, RefusesAPlaceThatIsAnotherOne) {
+    const Scene scene = ringCorridor();
+    const auto south = posesAlong(-6, -1, -6, 0.0);
+    std::vector<Pose> north = posesAlong(6, 1, 6, M_PI);
+    const FinishedSubmap target = submapOf(scene, south), source = submapOf(scene, north);
+    // As if drift had laid one side of the corridor over the other.
+    EXPECT_FALSE(verifiedPose(target, source, guess({}, 0.0, 0.0, 1.0, 0.2), {}));
+}
+
+TEST(Closure, AgreementTellsFoundFromContradictedAndUnseen) {
+    const Scene scene = ringCorridor();
+    const FinishedSubmap submap = submapOf(scene, posesAlong(-6, -1, -6, 0.0));
+    const Mixture<3>& surfaces = submap.shape.surfaces_submap;
+    const Agreement same = agreementOf(submap.submap.map, surfaces, {});
+    EXPECT_GT(same.overlap, 0.97);
+    EXPECT_GT(same.explained, 0.97);
+    EXPECT_LT(same.contradicted, 0.01);
+    Pose shifted;
+    shifted.t.y() = 1.0;  // walls in the middle of the corridor
+    EXPECT_GT(agreementOf(submap.submap.map, surfaces, shifted).contradicted, 0.2);
+    shifted.t.y() = 100.0;
+    EXPECT_EQ(agreementOf(submap.submap.map, surfaces, shifted).overlap, 0.0);
+}
+
+TEST(Closure, AppearanceDoesNotChangeWithYawButWithThePlace) {
+    const Scene scene = ringCorridor();
+    const FinishedSubmap a = submapOf(scene, posesAlong(-6, -1, -6, 0.0));
+    const FinishedSubmap turned = submapOf(scene, posesAlong(-6, -1, -6, 2.0));
+    Mixture<3> rotated =
+        transformed(a.shape.surfaces_submap, {rotationOf({0, 0, 2.0}), {}});
+    const Appearance same(rotated, Eigen::Vector3d::Zero());
+    EXPECT_GT(a.shape.appearance.similarity(same), 0.995);
+    Scene hall;
+    hall.add(evaluation::Box{{9, -20, -1}, {9.2, 20, 2}}, Part::wall);
+    for (int k = 0; k < 12; ++k)
+        hall.add(evaluation::Pillar{{-5 + k, 3.0 + 0.3 * k}, 0.15, -1, 2}, Part::pole);
+    const FinishedSubmap other = submapOf(hall, posesAlong(-1, 1, 0, 0.0));
+    EXPECT_LT(a.shape.appearance.similarity(other.shape.appearance),
+              a.shape.appearance.similarity(turned.shape.appearance));
+}
+
+/// A straight graph, and closures between its nodes that are off by `shift_m`.
+struct Straight {
+    explicit Straight(std::size_t nodes) {
+        Matrix6d covariance = Matrix6d::Identity() * 1e-6;
+        for (std::size_t k = 0; k < nodes; ++k) {
+            Pose pose;
+            pose.t.x() = static_cast<double>(k);
+            graph.T_world_node.push_back(pose);
+            Pose step;
+            step.t.x() = 1.0;
+            if (k > 0) graph.edges.push_back({k - 1, k, {step, covariance}, {}});
+        }
+    }
+    PoseEdge closure(std::size_t from, std::size_t to, double shift_m) const {
+        Pose pose = graph.T_world_node[from].inverse() * graph.T_world_node[to];
+        pose.t.y() += shift_m;
+        return {from, to, {pose, Matrix6d::Identity() * 1e-4}, PoseEdge::Kind::closure};
+    }
+    PoseGraph graph;
+};
+
+TEST(Closure, TheLargestConsistentSetIsFound) {
+    const Straight line(30);
+    const std::vector<PoseEdge> closures = {
+        line.closure(0, 20, 2.0),  line.closure(1, 21, -3.0), line.closure(2, 22, 2.01),
+        line.closure(3, 23, 1.99), line.closure(4, 24, 5.0),  line.closure(5, 25, -3.0)};
+    EXPECT_EQ(consistentClosures(line.graph, closures),
+              (std::vector<std::size_t>{0, 2, 3}));
+}
+
+TEST(Closure, DisagreementCountsClosureAndGraph) {
+    const Straight line(2);
+    // Variances 1e-6 and 1e-4 along y.
+    EXPECT_NEAR(disagreementWith(line.graph, line.closure(0, 1, 0.02)), 4e-4 / 1.01e-4,
+                1e-3);
+}
+
+}  // namespace
+}  // namespace hgmm::slam
