@@ -177,8 +177,9 @@ TEST_F(MapExport, DistancesAreThoseToTheWalls) {
         const double toWall = std::min(std::abs(x - 999.95), std::abs(x - 1002.05));
         const double toTop = std::hypot(0.5, std::max(0.0, std::abs(x - 1001.05) - 0.1),
                                         std::max(0.0, std::abs(y - 0.75) - 0.1));
-        if (y > 0.2 && y < 1.3)
+        if (y > 0.2 && y < 1.3) {
             EXPECT_NEAR(distance, std::min(toWall, toTop), 0.06) << line;
+        }
         EXPECT_LT(deviation, 0.1);
     }
     EXPECT_EQ(rows, 22 * 15);
