@@ -21,18 +21,18 @@ constexpr double kLeastRadius_m = 0.1;
 constexpr double kFinestCell_m = 0.05;
 /// A direction is held if more than this share of the pairs face it: what is below comes
 /// from errors of normals.
-constexpr double kObservableShare = 0.01;
+constexpr double kHeldShare = 0.01;
 /// Neighbouring samples and the errors of patches are alike: pairs count as no more than so
 /// many independent ones.
 constexpr double kIndependentPairs = 300.0;
 /// Patches are chosen for being near, which hides part of their scatter.
-constexpr double kHiddenScatter = 1.5;
+constexpr double kHiddenPatchScatter = 1.5;
 /// The last stage's kernel, besides the thickness of surfaces: that of the map's own
 /// unevenness [m] and [rad].
 constexpr SearchRadius kFinest{0.02, 0.001};
 constexpr int kMaxStages = 8, kMaxStageIterations = 6, kMaxLastIterations = 12;
 /// A stage ends when a step moves the samples by less than this share of the kernel.
-constexpr double kSmallestStep = 0.05;
+constexpr double kSmallestStepShare = 0.05;
 constexpr double kSmallestStep_m = 2e-4;
 
 /// Directions of the pose that surfaces hold. They are found in the coordinates
@@ -56,7 +56,7 @@ class HeldDirections {
             Matrix6d(steps.transpose() * sums.facing * steps));
         Matrix6d held = Matrix6d::Zero();
         for (int k = 0; k < 6; ++k) {
-            if (!(eigen.eigenvalues()[k] > kObservableShare * sums.weight)) continue;
+            if (!(eigen.eigenvalues()[k] > kHeldShare * sums.weight)) continue;
             const Vector6d axis = eigen.eigenvectors().col(k);
             held += axis * axis.transpose();
             ++count_;
@@ -112,7 +112,7 @@ class Aligner {
 
     void runStage(const SearchRadius& kernel, int maxIterations) {
         const double enough_m =
-            std::max(kSmallestStep_m, kSmallestStep * kernel.at(samples_.gyrationRadius_m));
+            std::max(kSmallestStep_m, kSmallestStepShare * kernel.at(samples_.gyrationRadius_m));
         for (int k = 0; k < maxIterations; ++k) {
             ++result_.iterations;
             const AlignmentSums sums = sumsAt(kernel);
@@ -162,7 +162,7 @@ class Aligner {
                        const SearchRadius& kernel) const {
         const double few = 6.0 / std::max(sums.weight, 1.0);
         const Matrix6d scatter =
-            kHiddenScatter *
+            kHiddenPatchScatter *
             (scatterByPatch(target_, samples_, pairs_, result_.T_target_sensor, kernel) +
              few * sums.information);
         const Matrix6d information = held.restricted(
