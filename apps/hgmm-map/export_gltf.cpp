@@ -26,7 +26,7 @@ std::string formatted(const char* format, ...) {
 }
 
 template <typename T>
-void append(std::string& bytes, T value) {
+void appendNumber(std::string& bytes, T value) {
     char raw[sizeof value];
     std::memcpy(raw, &value, sizeof value);
     bytes.append(raw, sizeof value);
@@ -40,10 +40,11 @@ void pad(std::string& bytes, char with) {
 std::string sphereBytes() {
     std::string bytes;
     for (const Eigen::Vector3d& v : unitSphere().vertices)
-        for (int axis = 0; axis < 3; ++axis) append(bytes, static_cast<float>(v[axis]));
+        for (int axis = 0; axis < 3; ++axis)
+            appendNumber(bytes, static_cast<float>(v[axis]));
     for (const auto& face : unitSphere().faces)
         for (const std::uint32_t vertex : face)
-            append(bytes, static_cast<std::uint16_t>(vertex));
+            appendNumber(bytes, static_cast<std::uint16_t>(vertex));
     pad(bytes, 0);
     return bytes;
 }
@@ -121,11 +122,12 @@ std::string gltfOf(const hgmm::Map& map, std::size_t level, double sigmas) {
     pad(json, ' ');
     const std::string binary = sphereBytes();
     std::string file = "glTF";
-    append(file, std::uint32_t{2});
-    append(file, static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + binary.size()));
-    append(file, static_cast<std::uint32_t>(json.size()));
+    appendNumber(file, std::uint32_t{2});
+    appendNumber(file,
+                 static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + binary.size()));
+    appendNumber(file, static_cast<std::uint32_t>(json.size()));
     file += "JSON" + json;
-    append(file, static_cast<std::uint32_t>(binary.size()));
+    appendNumber(file, static_cast<std::uint32_t>(binary.size()));
     file += std::string("BIN\0", 4) + binary;
     return file;
 }
