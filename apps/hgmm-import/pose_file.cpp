@@ -122,12 +122,13 @@ double vertexNumber(const std::string& word, char& letter) {
     return static_cast<double>(id & ((std::uint64_t{1} << letterShift) - 1));
 }
 
-/// Adds a line of a g2o file if it is a vertex with a pose.
+/// Adds a line of a g2o file if it is a vertex with a pose. MRPT's graphs and TORO's call
+/// planar ones VERTEX2.
 void addVertex(const std::string& text, char& letter, PoseFile& file) {
     std::istringstream words(text);
     std::string tag, id, rest;
     words >> tag >> id;
-    const bool planar = tag == "VERTEX_SE2";
+    const bool planar = tag == "VERTEX_SE2" || tag == "VERTEX2";
     if (!planar && tag != "VERTEX_SE3:QUAT") return;
     std::getline(words, rest);
     const auto v = evaluation::parseNumbers(rest);
@@ -161,7 +162,7 @@ void requireOrderOfQuaternion(std::string comment) {
 }
 
 bool startsG2o(const std::string& text) {
-    for (const char* tag : {"VERTEX_", "EDGE_", "FIX", "PARAMS_"})
+    for (const char* tag : {"VERTEX", "EDGE", "FIX", "PARAMS_"})
         if (text.rfind(tag, 0) == 0) return true;
     return false;
 }

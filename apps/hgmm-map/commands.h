@@ -79,7 +79,7 @@ void forget(const ForgetOptions& options);
 
 struct ExportOptions {
     std::string mapFile, output;
-    std::string format;  ///< "ply", "3Dscene", "png", "bt", "ot" or "yaml"
+    std::string format;  ///< "ply", "glb", "3Dscene", "png", "bt", "ot", "yaml", "csv"...
     std::size_t level = 0;
     std::size_t pointsPerComponent = 0;  ///< ply: points instead of ellipsoids, if not 0
     std::uint64_t seed = 1;
@@ -87,13 +87,18 @@ struct ExportOptions {
     double pitch_deg = 30.0;  ///< png: how far it points down [deg]
     double cut = 0.0;         ///< png: share of the depth left out, in [0, 1)
     hgmm::mrpt_bridge::RenderParams render;  ///< 3Dscene only; level is taken from above
-    double resolution_m = 0.0;               ///< bt, ot, yaml, voxels [m]; 0: derived
+    double resolution_m = 0.0;               ///< of cells and voxels [m]; 0: derived
     /// bt, ot: the point of the map that becomes the tree's origin, x, y, z [m], rounded to
     /// whole cells; empty: the map's (0, 0, 0).
     std::vector<double> offset_map;
-    bool local = false;              ///< bt, ot: that point is the map's own origin
-    std::optional<double> height_m;  ///< yaml: of the slice [m], in the map frame
-    bool force = false;              ///< replace files of other kinds
+    bool local = false;  ///< bt, ot: that point is the map's own origin
+    /// yaml, csv, pgm: of the slice [m], in the map frame.
+    std::optional<double> height_m;
+    std::vector<double> band_m;         ///< yaml: instead, lowest and highest height [m]
+    std::string quantity = "distance";  ///< pgm: or "deviation", its standard deviation
+    double maxDistance_m = 5.0;         ///< csv, pgm: how far surfaces are looked for [m]
+    double maxDeviation_m = 0.2;        ///< pgm: shown brightest [m]
+    bool force = false;                 ///< replace files of other kinds
 };
 
 /// `hgmm-map export`: one level in another program's format, in the map frame.

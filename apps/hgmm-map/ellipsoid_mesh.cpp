@@ -9,13 +9,6 @@
 namespace maptool {
 namespace {
 
-using Face = std::array<std::uint32_t, 3>;
-
-struct Sphere {
-    std::vector<Eigen::Vector3d> vertices;
-    std::vector<Face> faces;
-};
-
 /// The icosahedron, counter-clockwise from outside: two poles and two rings of five.
 Sphere icosahedron() {
     Sphere s;
@@ -60,24 +53,32 @@ Sphere subdivided(const Sphere& coarse) {
 
 }  // namespace
 
+const Sphere& unitSphere() {
+    static const Sphere sphere = subdivided(icosahedron());
+    return sphere;
+}
+
+Ellipsoid ellipsoidOf(const hgmm::Gaussian<3>& component_local, double sigmas) {
+    const Eigen::Matrix3d covariance = component_local.covariance;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+    Ellipsoid e{component_local.mean, solver.eigenvectors(),
+                sigmas * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt()};
+    if (e.axes.determinant() < 0) e.axes.col(0) *= -1.0;  // keeps faces turned outwards
+    return e;
+}
+
 void appendEllipsoid(const hgmm::Gaussian<3>& component_local,
                      const Eigen::Vector3d& origin_map, double sigmas, std::uint32_t id,
                      hgmm::evaluation::Ply& ply) {
-    static const Sphere sphere = subdivided(icosahedron());
-    const Eigen::Matrix3d covariance = component_local.covariance;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-    Eigen::Matrix3d axes = solver.eigenvectors();
-    if (axes.determinant() < 0) axes.col(0) *= -1.0;  // keeps the faces turned outwards
-    const Eigen::Vector3d lengths = sigmas * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-    const Eigen::Vector3d centre = origin_map + component_local.mean;
-
+    const Ellipsoid e = ellipsoidOf(component_local, sigmas);
     const auto first = static_cast<std::uint32_t>(ply.vertices.size());
-    for (const Eigen::Vector3d& v : sphere.vertices) {
-        ply.vertices.push_back(centre + axes * lengths.cwiseProduct(v));
+    for (const Eigen::Vector3d& v : unitSphere().vertices) {
+        ply.vertices.push_back(origin_map + e.centre_local +
+                               e.axes * e.lengths.cwiseProduct(v));
         ply.colours.push_back(hgmm::evaluation::colourOf(id));
         ply.components.push_back(id);
     }
-    for (const auto& [a, b, c] : sphere.faces)
+    for (const auto& [a, b, c] : unitSphere().faces)
         ply.faces.push_back({first + a, first + b, first + c});
 }
 

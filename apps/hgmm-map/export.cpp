@@ -6,6 +6,8 @@
 
 #include "commands.h"
 #include "ellipsoid_mesh.h"
+#include "export_field.h"
+#include "export_gltf.h"
 #include "export_octree.h"
 #include "export_slice.h"
 #include "hgmm/evaluation/reconstruction.h"
@@ -44,6 +46,12 @@ void exportPly(const hgmm::Map& map, const ExportOptions& options) {
             appendEllipsoid(mixture[i], map.origin(), kSigmas, id, ply);
     }
     hgmm::evaluation::writePly(options.output, ply, replaceFor(options.force));
+}
+
+void exportGltf(const hgmm::Map& map, const ExportOptions& options) {
+    levelOf(map, options.level, options.mapFile);
+    hgmm::mrpt_bridge::writeFile(options.output, gltfOf(map, options.level, kSigmas),
+                                 replaceFor(options.force));
 }
 
 void exportScene(mrpt::maps::CHGMMOccupancyMap map, const ExportOptions& options) {
@@ -88,6 +96,9 @@ std::vector<hgmm::mrpt_bridge::Output> outputsOf(const ExportOptions& options) {
     const std::string& file = options.output;
     if (options.format == "ply") return {{file, FileKind::ply}};
     if (options.format == "png") return {{file, FileKind::png}};
+    if (options.format == "glb") return {{file, FileKind::gltf}};
+    if (options.format == "csv") return {{file, FileKind::text}};
+    if (options.format == "pgm") return {{file, FileKind::pgm}};
     if (options.format == "3Dscene") return {{file, FileKind::scene}};
     if (options.format == "yaml")
         return {{file, FileKind::slice}, {pictureBeside(file), FileKind::pgm}};
@@ -106,6 +117,10 @@ void exportMap(const ExportOptions& options) {
         exportPly(map.model(), options);
     else if (options.format == "png")
         exportPicture(map.model(), options);
+    else if (options.format == "glb")
+        exportGltf(map.model(), options);
+    else if (options.format == "csv" || options.format == "pgm")
+        exportField(map.model(), options);
     else if (options.format == "3Dscene")
         exportScene(map, options);
     else if (options.format == "yaml")

@@ -13,7 +13,7 @@ namespace maptool {
 namespace {
 
 using Formats = std::set<std::string>;
-const Formats kFormats = {"ply", "3Dscene", "png", "bt", "ot", "yaml"};
+const Formats kFormats = {"ply", "glb", "3Dscene", "png", "bt", "ot", "yaml", "csv", "pgm"};
 
 /// An option that only some formats know.
 using Restricted = std::pair<CLI::Option*, Formats>;
@@ -67,6 +67,55 @@ std::vector<Restricted> defineOffset(CLI::App& exports, ExportOptions& exporting
     return {{offset, {"bt", "ot"}}, {local, {"bt", "ot"}}};
 }
 
+/// Where slices are, and what of them is shown.
+std::vector<Restricted> defineSlice(CLI::App& exports, ExportOptions& exporting) {
+    CLI::Option* height = exports.add_option("--height", exporting.height_m,
+                                             "yaml, csv, pgm: height of the slice [m]");
+    CLI::Option* band =
+        exports
+            .add_option("--band", exporting.band_m,
+                        "yaml: heights instead [m]: a cell is occupied if anything between "
+                        "them is")
+            ->delimiter(',')
+            ->expected(2)
+            ->type_name("LOW,HIGH")
+            ->excludes(height);
+    CLI::Option* quantity =
+        exports
+            .add_option("--show", exporting.quantity,
+                        "pgm: distance to the nearest surface, or its standard deviation")
+            ->check(CLI::IsMember({"distance", "deviation"}))
+            ->capture_default_str();
+    CLI::Option* farthest = exports
+                                .add_option("--max-distance", exporting.maxDistance_m,
+                                            "csv, pgm: how far surfaces are looked for [m]")
+                                ->check(CLI::Range(1e-3, 1e6))
+                                ->capture_default_str();
+    CLI::Option* deviation =
+        exports
+            .add_option("--max-deviation", exporting.maxDeviation_m,
+                        "pgm: the standard deviation that is shown brightest [m]")
+            ->check(CLI::Range(1e-6, 1e6))
+            ->capture_default_str();
+    return {{height, {"yaml", "csv", "pgm"}},
+            {band, {"yaml"}},
+            {quantity, {"pgm"}},
+            {farthest, {"csv", "pgm"}},
+            {deviation, {"pgm"}}};
+}
+
+/// Throws CLI::ParseError for a slice without a height or with a band upside down.
+void requireHeight(const ExportOptions& exporting) {
+    const bool isSlice = exporting.format == "yaml" || exporting.format == "csv" ||
+                         exporting.format == "pgm";
+    if (isSlice && !exporting.height_m && exporting.band_m.empty())
+        throw CLI::RequiredError("--height");
+    if (!exporting.band_m.empty() &&
+        !(exporting.band_m[0] < exporting.band_m[1] && std::isfinite(exporting.band_m[1]) &&
+          std::isfinite(exporting.band_m[0])))
+        throw CLI::ValidationError("--band", "its first height must be below its second");
+}
+
 std::vector<Restricted> defineOptions(CLI::App& exports, ExportOptions& exporting) {
     std::vector<Restricted> options = defineSceneOptions(exports, exporting.render);
     for (const auto& option : defineOffset(exports, exporting)) options.push_back(option);
@@ -79,12 +128,10 @@ std::vector<Restricted> defineOptions(CLI::App& exports, ExportOptions& exportin
     options.emplace_back(
         exports
             .add_option("--resolution", exporting.resolution_m,
-                        "bt, ot, yaml, voxels: edge of a cell [m]; default: from the map")
+                        "bt, ot, slices, voxels: edge of a cell [m]; default: from the map")
             ->check(CLI::PositiveNumber),
-        Formats{"bt", "ot", "yaml", "3Dscene"});
-    options.emplace_back(
-        exports.add_option("--height", exporting.height_m, "yaml: height of the slice [m]"),
-        Formats{"yaml"});
+        Formats{"bt", "ot", "yaml", "csv", "pgm", "3Dscene"});
+    for (const auto& option : defineSlice(exports, exporting)) options.push_back(option);
     exports.add_option("--seed", exporting.seed, "ply: seed of the points")
         ->check(CLI::NonNegativeNumber);
     exports.add_option("--yaw", exporting.yaw_deg, "png: viewing direction about z [deg]");
@@ -99,9 +146,9 @@ std::string formatOf(const ExportOptions& exporting) {
     if (!exporting.format.empty()) return exporting.format;
     const std::string extension = std::filesystem::path(exporting.output).extension();
     if (extension.empty() || kFormats.count(extension.substr(1)) == 0)
-        throw CLI::ValidationError(
-            "OUT", "'" + exporting.output +
-                       "' ends in none of .bt .ot .yaml .ply .3Dscene .png: say --format");
+        throw CLI::ValidationError("OUT", "'" + exporting.output +
+                                              "' ends in none of .bt .ot .yaml .csv .pgm "
+                                              ".ply .glb .3Dscene .png: say --format");
     return extension.substr(1);
 }
 
@@ -112,9 +159,11 @@ CLI::App* defineExport(CLI::App& app, ExportOptions& exporting) {
     exports->add_option("MAP", exporting.mapFile, "Saved map")->required();
     exports->add_option("OUT,-o", exporting.output, "Output file")->required();
     exports
-        ->add_option("--format", exporting.format,
-                     "ply: ellipsoids or points; 3Dscene: MRPT; png: a picture; bt, ot: "
-                     "OctoMap; yaml: slice for ROS' map_server. Default: OUT's extension")
+        ->add_option(
+            "--format", exporting.format,
+            "ply: ellipsoids or points; glb: ellipsoids as glTF; 3Dscene: MRPT; png: a "
+            "picture; bt, ot: OctoMap; yaml: slice for ROS' map_server; csv, pgm: "
+            "slice of distances. Default: OUT's extension")
         ->check(CLI::IsMember(kFormats));
     addForce(*exports, exporting.force);
     exports->add_option("--level", exporting.level, "Level of the hierarchy, 0 = finest")
@@ -126,8 +175,7 @@ CLI::App* defineExport(CLI::App& app, ExportOptions& exporting) {
             if (option->count() > 0 && formats.count(exporting.format) == 0)
                 throw CLI::ValidationError(option->get_name(),
                                            "is not for --format " + exporting.format);
-        if (exporting.format == "yaml" && !exporting.height_m)
-            throw CLI::RequiredError("--height");
+        requireHeight(exporting);
         exporting.render.drawEllipsoids = !exporting.render.drawVoxels;
         exporting.render.generateFreeVoxels = exports->count("--free-voxels") > 0;
     });

@@ -233,6 +233,10 @@ TEST_F(ImportMatching, PosesWithNumbersAreMatchedByThem) {
     write("poses.txt",
           "VERTEX_SE2 3 0 3 0.3\nVERTEX_SE2 1 0 1 0.1\nVERTEX_SE2 2 0 2 0.2\n");
     expectScans({1, 2, 3});
+    write("poses.txt",
+          "VERTEX2 1 0 1 0.1\nVERTEX2 2 0 2 0.2\nVERTEX2 3 0 3 0.3\nEDGE2 1 2 0 1 0.1 1 0 "
+          "1 1 0 0\n");
+    expectScans({1, 2, 3});
 }
 
 TEST_F(ImportMatching, NumbersAloneGiveNoRotation) {

@@ -98,6 +98,15 @@ TEST(ModalityMap, AScanThatFitsAnyScaleTellsNone) {
     EXPECT_EQ(intensityScaleOf(*o), 65535.0);
 }
 
+TEST(ModalityMap, RgbIsReadInLettersOfAnyCase) {
+    for (const std::string name : {"rgb", "RGB", "Rgb"}) {
+        const mrpt::config::CConfigFileMemory config("[i]\nmodalities = " + name + "\n");
+        CHGMMOccupancyMap::TInsertionOptions options;
+        options.loadFromConfigFile(config, "i");
+        EXPECT_EQ(options.params.modalities, (Names{"r", "g", "b"})) << name;
+    }
+}
+
 TEST(ModalityMap, ConfigurationsNameThem) {
     const mrpt::config::CConfigFileMemory config(
         std::string("[m]\nhgmmMap_count = 1\n[m_hgmmMap_00_insertOpts]\n"

@@ -93,6 +93,7 @@ TEST_F(OutputFiles, KindsAreToldByTheirStarts) {
     EXPECT_EQ(kindOf("plywood is wood\n"), FileKind::text);
     EXPECT_EQ(kindOf("\x89PNG\r\n\x1a\n"), FileKind::png);
     EXPECT_EQ(kindOf("P5\n2 2\n255\n"), FileKind::pgm);
+    EXPECT_EQ(kindOf("glTF\x02"), FileKind::gltf);
     EXPECT_EQ(kindOf("# Octomap OcTree binary file\n"), FileKind::octree);
     EXPECT_EQ(kindOf("image: a.pgm\n"), FileKind::slice);
     EXPECT_EQ(kindOf("{\"a\": 1}"), FileKind::json);

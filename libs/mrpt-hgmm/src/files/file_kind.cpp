@@ -76,6 +76,7 @@ FileKind kindOf(std::string_view start) {
     if (startsWith(start, "ply\n") || startsWith(start, "ply\r")) return FileKind::ply;
     if (startsWith(start, "\x89PNG")) return FileKind::png;
     if (startsWith(start, "P5")) return FileKind::pgm;
+    if (startsWith(start, "glTF")) return FileKind::gltf;
     return isText(start) ? kindOfText(start) : FileKind::other;
 }
 
@@ -110,6 +111,8 @@ const char* nameOf(FileKind kind) {
             return "a PNG picture";
         case FileKind::pgm:
             return "a PGM picture";
+        case FileKind::gltf:
+            return "a glTF scene";
         case FileKind::slice:
             return "a slice's description";
         case FileKind::json:

@@ -15,6 +15,7 @@ enum class FileKind {
     ply,
     png,
     pgm,
+    gltf,   ///< binary, .glb
     slice,  ///< the .yaml of map_server
     json,
     html,
