@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Atlases of a recording of the benchmark: same bytes for 1, 2 and 3 workers, in shuffled order, and
-with a worker that is killed; how good the merged map is beside that of one run; what it costs.
+"""Atlases of a recording of the benchmark: same bytes for 1, 2 and 3 workers, in shuffled order,
+and with a worker that is killed; how good the merged map is beside that of one run; what it costs.
 
     scripts/atlas.py LOG.rawlog POSES.tum SCANS_FOLDER [WORK_FOLDER]
 
@@ -38,7 +38,8 @@ def atlas_by(workers, segments, settings, place, kill=False):
     folder.prepare()
     shuffled = list(segments)
     random.Random(workers).shuffle(shuffled)
-    with LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster, \
+    with LocalCluster(n_workers=workers, threads_per_worker=1,
+                      dashboard_address=None) as cluster, \
             Client(cluster, set_as_default=False) as client:
         pids = list(client.run(os.getpid).values())
 
@@ -62,9 +63,10 @@ def poses_of(file):
     """T_map_sensor of each line, with the ray's origin as the sensor's."""
     poses = []
     for _, *t, x, y, z, w in numpy.loadtxt(file):
-        rotation = numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                                [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                                [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+        rotation = numpy.array([
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
         poses.append((rotation, numpy.array(t)))
     return poses
 

@@ -1,6 +1,7 @@
 """An atlas as a graph of tasks on Dask distributed. What comes out depends on the segments and
 settings alone: neither on the number of workers nor on the order in which tasks end."""
 import pathlib
+import uuid
 
 from distributed import as_completed
 
@@ -34,8 +35,9 @@ def make_atlas(client, segments, settings, folder, tell=lambda text: None):
 
 def map_segments(client, segments, settings, folder, tell):
     """The shards of each segment: tile -> name."""
+    of_this = key_maker()
     futures = [client.submit(tasks.map_segment, segment, settings, folder, retries=RETRIES,
-                             pure=False, key=f"segment-{number}-of-{segment.log}")
+                             pure=False, key=of_this("segment", number))
                for number, segment in enumerate(segments)]
     follow(client, futures, "segments", tell)
     return client.gather(futures)
@@ -44,7 +46,7 @@ def map_segments(client, segments, settings, folder, tell):
 def merge_tiles(client, shards, folder, tell):
     """Entries of the index, one a tile."""
     tiles = sorted({tile for of_segment in shards for tile in of_segment})
-    written, merges = [], 0
+    of_this, written, merges = key_maker(), [], 0
     for tile in tiles:
         root, nodes = plan.merges_of({number: of_segment[tile]
                                       for number, of_segment in enumerate(shards)
@@ -54,14 +56,21 @@ def merge_tiles(client, shards, folder, tell):
             inputs = [futures[name] for name in (node.left, node.right) if name in futures]
             futures[node.name] = client.submit(
                 tasks.merge_shards, node, folder, *inputs, retries=RETRIES, pure=False,
-                key=f"merge-{tile}-{node.name}")
+                key=of_this("merge", f"{tile}-{node.name}"))
         inputs = [futures[root]] if root in futures else []
         written.append(client.submit(tasks.write_tile, tile, root, folder, *inputs,
-                                     retries=RETRIES, pure=False, key=f"tile-{tile}"))
+                                     retries=RETRIES, pure=False, key=of_this("tile", tile)))
         merges += len(nodes)
     tell(f"{merges} merges for {len(tiles)} tiles")
     follow(client, written, "tiles", tell)
     return client.gather(written)
+
+
+def key_maker():
+    """Keys of tasks that no other call and no other client of the scheduler has. The dashboard
+    groups tasks by their kind."""
+    call = uuid.uuid4().hex[:12]
+    return lambda kind, what: f"{kind}-{call}-{what}"
 
 
 def follow(client, futures, what, tell):
