@@ -10,15 +10,13 @@ packages=(
     # build
     g++ cmake ninja-build ccache
     libmrpt-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libnanoflann-dev liboctomap-dev
-    libpng-dev zlib1g-dev libceres-dev
     zlib1g-dev libceres-dev
     # Python package, its reports and pages, its tests and its wheel
     pybind11-dev python3-dev python3-numpy python3-pytest
-    python3-setuptools python3-wheel python3-build python3-matplotlib libjs-three python3-distributed
+    python3-setuptools python3-wheel python3-build python3-matplotlib
+    libjs-three python3-distributed
     # tests
     libgtest-dev libbenchmark-dev clang-format pkg-config chromium chromium-driver python3-selenium
-    libgtest-dev libbenchmark-dev clang-format pkg-config
-    chromium chromium-driver python3-selenium
     # stock MRPT apps and their data, used by the tests and the demo
     mrpt-apps mrpt-common
 )

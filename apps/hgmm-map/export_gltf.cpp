@@ -71,7 +71,7 @@ std::string meshesOf() {
         float(high.y()), float(high.z()), indices);
     std::string materials, meshes;
     for (std::uint32_t i = 0; i < kColours; ++i) {
-        const Colour colour = colourOf(i);
+        const hgmm::evaluation::Colour colour = hgmm::evaluation::colourOf(i);
         const char* comma = i == 0 ? "" : ",";
         materials += formatted(
             "%s{\"pbrMetallicRoughness\":{\"baseColorFactor\":[%.4g,%.4g,%.4g,1],"
