@@ -36,7 +36,7 @@ TEST_F(MapOptions, ListsTheBasicOnes) {
 TEST_F(MapOptions, ListsAllBySection) {
     const Outcome outcome = mapTool("options --all");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_EQ(namesIn(outcome.out).size(), 61U);
+    EXPECT_EQ(namesIn(outcome.out).size(), 62U);
     std::size_t at = 0;
     for (const char* next :
          {"_insertOpts]", "extentSigmas", "_likelihoodOpts]", "outlierRatio",
