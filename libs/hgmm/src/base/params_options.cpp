@@ -66,7 +66,7 @@ const OptionTable<EmParams>& EmParams::options() {
 const OptionTable<HierarchyParams>& HierarchyParams::options() {
     using P = HierarchyParams;
     static const OptionTable<P> table = {
-        {"levels", &P::levels, "count", 1, 64, "levels of the hierarchy that are kept"},
+        {"levels", &P::levels, "count", 1, 1000, "levels of the hierarchy that are kept"},
         {"similarityStart", &P::similarityStart, "nat", 1e-12, 1e9,
          "divergence below which the first pass merges two components"},
         {"similarityStep", &P::similarityStep, "nat", 0, 1e9,

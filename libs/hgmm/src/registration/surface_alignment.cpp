@@ -125,13 +125,12 @@ class Aligner {
                 share * held.restricted(sums.gradient) +
                 priorInformation_ *
                     errorFrom(prior_.T_target_sensor, result_.T_target_sensor);
-            const Vector6d step = -information.ldlt().solve(gradient);
+            const Vector6d step =
+                limited(-information.ldlt().solve(gradient), 2 * kernel.width_m);
             result_.T_target_sensor = {
                 rotationOf(step.head<3>()) * result_.T_target_sensor.R,
                 result_.T_target_sensor.t + step.tail<3>()};
-            const double moved_m = std::hypot(
-                step.head<3>().norm() * samples_.gyrationRadius_m, step.tail<3>().norm());
-            if (moved_m < enough_m) break;
+            if (movedBy(step) < enough_m) break;
         }
     }
 
@@ -147,6 +146,16 @@ class Aligner {
     }
 
  private:
+    /// How far a step moves the samples [m].
+    double movedBy(const Vector6d& step) const {
+        return std::hypot(step.head<3>().norm() * samples_.gyrationRadius_m,
+                          step.tail<3>().norm());
+    }
+    /// A step is of no use beyond the surfaces that it was made of.
+    Vector6d limited(const Vector6d& step, double most_m) const {
+        const double moved_m = movedBy(step);
+        return moved_m > most_m ? Vector6d(step * (most_m / moved_m)) : step;
+    }
     AlignmentSums sumsAt(const SearchRadius& kernel) {
         pairs_ =
             pairWithPatches(target_, samples_, result_.T_target_sensor, kernel, pairs_);

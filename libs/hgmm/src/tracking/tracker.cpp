@@ -28,6 +28,9 @@ constexpr float kSurelyFree = 0.8F;
 constexpr double kContradicted = 0.7;
 /// It is taken if it explains so much more of the scan [1].
 constexpr double kBetterBy = 0.05;
+/// With less than this share of what was found of the last scan, the scan is aligned from
+/// close to the prior as well: kernels that are too wide may find another place [1].
+constexpr double kFallen = 0.85;
 
 /// Standard deviations of position and rotation, of all axes together.
 SearchRadius deviationOf(const Matrix6d& covariance) {
@@ -83,7 +86,8 @@ struct ScanTracker::Impl {
     std::optional<double> time_s;  ///< of the last scan
     std::optional<Velocity> velocity;
     PriorDeviation deviation;
-    ScanSamples samples;  ///< of the last scan
+    double overlap = 0.0;  ///< of the last scan
+    ScanSamples samples;   ///< of the last scan
     LocalMap local;
     std::shared_ptr<const Map> given;  ///< null: odometry
     std::unique_ptr<PatchTree<3>> target;
@@ -133,6 +137,10 @@ SurfaceAlignment ScanTracker::Impl::align(const PoseEstimate& prior) {
                                static_cast<std::size_t>(params.maxSamples));
     const SearchRadius off = wider(deviation.now(), deviationOf(prior.covariance));
     SurfaceAlignment found = alignedFrom(prior, off, few);
+    if (found.overlap < kFallen * overlap) {
+        const SurfaceAlignment closer = alignedFrom(prior, kFound, few);
+        if (closer.overlap > found.overlap) found = closer;
+    }
     if (found.overlap < kLittle) {
         RegistrationParams search;
         search.coarseWidth_m = kSearch_m;
@@ -229,6 +237,7 @@ TrackedPose ScanTracker::track(const Scan& scan, double time_s,
             Velocity::of(t.pose.T_map_sensor.inverse() * now.T_map_sensor, duration_s);
     t.pose = now;
     t.time_s = time_s;
+    t.overlap = now.overlap;
     if (!t.given && !now.lost && t.local.insert(t.samples, now.T_map_sensor)) {
         now.inserted = true;
         t.renewTarget();
