@@ -9,14 +9,15 @@
 namespace localise {
 
 /// Follows a robot in a map. Searches the whole map where nothing is known of the robot's
-/// place, or where it is lost for a while.
+/// place, or where it is lost or in doubt for a while.
 class Localiser {
  public:
     /// @param start T_map_robot, about; nothing: the map is searched
     Localiser(std::shared_ptr<const hgmm::Map> map, const std::optional<hgmm::Pose>& start);
 
     /// Where the robot is: T_map_sensor is T_map_robot here, and the covariance is the
-    /// robot's. Nothing until the robot is found for the first time.
+    /// robot's. Lost also where the scan and those before it are in doubt. Nothing until
+    /// the robot is found for the first time.
     std::optional<hgmm::TrackedPose> next(const TimedScan& timed);
 
  private:
@@ -27,7 +28,7 @@ class Localiser {
     std::shared_ptr<const hgmm::Map> map_;
     std::optional<hgmm::Pose> start_;
     std::optional<hgmm::ScanTracker> tracker_;
-    int lostScans_ = 0;  // in a row
+    int doubtfulScans_ = 0;  // in a row
 };
 
 }  // namespace localise
