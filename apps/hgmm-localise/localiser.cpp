@@ -38,9 +38,12 @@ hgmm::TrackedPose robotPose(hgmm::TrackedPose pose, const hgmm::Pose& T_robot_se
     return pose;
 }
 
-bool isDoubtful(const std::optional<hgmm::TrackedPose>& pose) {
-    return !pose || pose->lost ||
-           (pose->overlap < kLittle && pose->contradicted > kContradicted * pose->overlap);
+/// @param before whether the robot was lost at the scan before: it is found again where
+/// the map explains much.
+bool isDoubtful(const std::optional<hgmm::TrackedPose>& pose, bool before) {
+    if (!pose || pose->lost) return true;
+    return pose->overlap < kLittle &&
+           (before || pose->contradicted > kContradicted * pose->overlap);
 }
 
 }  // namespace
@@ -76,7 +79,7 @@ std::optional<hgmm::TrackedPose> Localiser::next(const TimedScan& timed) {
         pose = robotPose(tracker_->track(timed.scan, timed.time_s,
                                          moved ? std::nullopt : timed.odometry),
                          timed.scan.T_map_sensor);
-    doubtfulScans_ = isDoubtful(pose) ? doubtfulScans_ + 1 : 0;
+    doubtfulScans_ = isDoubtful(pose, doubtfulScans_ >= kPatience) ? doubtfulScans_ + 1 : 0;
     if (pose) pose->lost = pose->lost || doubtfulScans_ >= kPatience;
     return pose;
 }
