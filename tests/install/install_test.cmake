@@ -23,7 +23,7 @@ if(NOT STEP_OUTPUT MATCHES "P\\(occupied\\) = 0\\.[5-9]" OR NOT EXISTS ${WORK_DI
     message(FATAL_ERROR "consumer-documented printed: ${STEP_OUTPUT}")
 endif()
 foreach(installed
-        bin/hgmm-replay bin/hgmm-import bin/hgmm-map lib/pkgconfig/mrpt-hgmm.pc
+        bin/hgmm-replay bin/hgmm-import bin/hgmm-map bin/hgmm-localise lib/pkgconfig/mrpt-hgmm.pc
         share/mrpt-hgmm/config_files/pf-localization.ini)
     if(NOT EXISTS ${WORK_DIR}/prefix/${installed})
         message(FATAL_ERROR "not installed: ${installed}")
