@@ -4,6 +4,7 @@
 #   scripts/install-deps.sh         for the release build
 #   scripts/install-deps.sh asan    for the sanitized builds, too (asan, tsan)
 #   scripts/install-deps.sh package for Debian packages, too
+#   scripts/install-deps.sh browser for tests of pages in a browser, too
 set -euo pipefail
 
 packages=(
@@ -16,13 +17,16 @@ packages=(
     python3-setuptools python3-wheel python3-build python3-matplotlib
     libjs-three python3-distributed
     # tests
-    libgtest-dev libbenchmark-dev clang-format pkg-config chromium chromium-driver python3-selenium
+    libgtest-dev libbenchmark-dev clang-format pkg-config
     # stock MRPT apps and their data, used by the tests and the demo
     mrpt-apps mrpt-common
 )
 if [[ ${1:-} == asan || ${1:-} == tsan ]]; then
     # Sanitized, GCC takes longer to compile the code, and the code to run.
     packages+=(clang libclang-rt-dev libomp-dev)
+fi
+if [[ ${1:-} == browser ]]; then
+    packages+=(chromium chromium-driver python3-selenium)
 fi
 if [[ ${1:-} == package ]]; then
     packages+=(dpkg-dev file gzip help2man lintian man-db)

@@ -27,6 +27,12 @@ coreShuffled() {
     build-debug/tests/test-threads --gtest_brief=1 --gtest_shuffle
 }
 
+# The viewer and the report, clicked through in a headless browser.
+pages() {
+    scripts/test.sh >/dev/null
+    ctest --preset release -C Browser -R python.browser
+}
+
 # A wheel of the Python package stands alone: it reads a saved map where nothing else of this tree is.
 wheel() {
     local work
@@ -40,8 +46,10 @@ wheel() {
 }
 
 stage 'packages' scripts/install-deps.sh asan
+stage 'packages of the browser' scripts/install-deps.sh browser
 stage 'equality sees one ulp' scripts/equality.sh --self-test
 stage 'core in debug, shuffled' coreShuffled
 stage 'sanitized, everything' sanitizedRest
 stage 'races, 20 times' racesAgain
+stage 'pages in a browser' pages
 stage 'wheel' wheel
