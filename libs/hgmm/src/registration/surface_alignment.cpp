@@ -125,8 +125,7 @@ class Aligner {
                 share * held.restricted(sums.gradient) +
                 priorInformation_ *
                     errorFrom(prior_.T_target_sensor, result_.T_target_sensor);
-            const Vector6d step =
-                limited(-information.ldlt().solve(gradient), 2 * kernel.width_m);
+            const Vector6d step = limited(-information.ldlt().solve(gradient));
             result_.T_target_sensor = {
                 rotationOf(step.head<3>()) * result_.T_target_sensor.R,
                 result_.T_target_sensor.t + step.tail<3>()};
@@ -151,8 +150,9 @@ class Aligner {
         return std::hypot(step.head<3>().norm() * samples_.gyrationRadius_m,
                           step.tail<3>().norm());
     }
-    /// A step is of no use beyond the surfaces that it was made of.
-    Vector6d limited(const Vector6d& step, double most_m) const {
+    /// No step goes farther than the prior may be off: beyond, surfaces say nothing.
+    Vector6d limited(const Vector6d& step) const {
+        const double most_m = prior_.deviation.at(samples_.gyrationRadius_m);
         const double moved_m = movedBy(step);
         return moved_m > most_m ? Vector6d(step * (most_m / moved_m)) : step;
     }
