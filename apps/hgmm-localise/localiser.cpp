@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "hgmm/global_search.h"
+#include "hgmm/slam/uncertain_pose.h"
 
 namespace localise {
 
@@ -24,17 +25,13 @@ hgmm::Registration::Covariance startCovariance() {
     return covariance;
 }
 
-/// The robot's pose from its sensor's. A turn of the sensor about itself swings the robot:
-/// v_robot = v_sensor + w x (t_robot - t_sensor).
+/// The robot's pose from its sensor's.
 hgmm::TrackedPose robotPose(hgmm::TrackedPose pose, const hgmm::Pose& T_robot_sensor) {
-    const Eigen::Vector3d sensor_map = pose.T_map_sensor.t;
-    pose.T_map_sensor = pose.T_map_sensor * T_robot_sensor.inverse();
-    const Eigen::Vector3d arm = pose.T_map_sensor.t - sensor_map;
-    Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Identity();
-    J.bottomLeftCorner<3, 3>() << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(),
-        -arm.x(), 0;
-    const Eigen::Matrix<double, 6, 6> ofSensor = pose.covariance;
-    pose.covariance = J * ofSensor * J.transpose();
+    const hgmm::slam::UncertainPose T_map_robot =
+        hgmm::slam::UncertainPose{pose.T_map_sensor, pose.covariance} *
+        hgmm::slam::UncertainPose{T_robot_sensor.inverse()};
+    pose.T_map_sensor = T_map_robot.T_a_b;
+    pose.covariance = T_map_robot.covariance;
     return pose;
 }
 

@@ -35,10 +35,11 @@ class Follower {
     void follow(const RecordedScan& recorded) {
         // Of an observation that holds nothing, only the time is known.
         Scan scan = mrpt_bridge::observationToScan(*recorded.observation, std::nullopt,
-                                                   mrpt_bridge::channelsFor(map_), reading_)
+                                                   mrpt_bridge::Channels::none, reading_)
                         .value_or(Scan{});
         if (!odometry_) {
-            T_robot_sensor_ = scan.T_map_sensor;
+            T_robot_sensor_ =
+                mrpt_bridge::sensorPoseInMap(*recorded.observation, std::nullopt);
             odometry_.emplace(map_, T_robot_sensor_);
         }
         const Pose T_given_robot = mrpt_bridge::toPose(recorded.T_map_robot);

@@ -23,8 +23,7 @@ struct SlamRun {
 /// which of several sensors is used. Throws std::runtime_error naming the file.
 evaluation::RecordingOptions recordingOptionsFor(const Options& options);
 
-/// Follows the recording to its end or Ctrl-C. Throws std::runtime_error if no scan could
-/// be used.
+/// Follows the recording to its end or Ctrl-C.
 SlamRun runSlam(evaluation::Recording& recording, const MapParams& map,
                 const mrpt_bridge::ReadingParams& reading, const Options& options);
 
