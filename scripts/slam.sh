@@ -8,6 +8,7 @@
 # largest memory. For the Telecom loop, distance of the end from (4.23, -18.46, -87.7 deg), where
 # direct matching of scans puts it.
 set -euo pipefail
+failed=0 here=$PWD
 cd "$(dirname "$0")/.."
 bin=$PWD/build/bin out=$PWD/build/slam
 mkdir -p "$out"
@@ -32,7 +33,7 @@ locate() { # RECORDING: sets log and poses
         telecom)
             log='/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog'
             poses= ;;
-        *) log=$1 poses=${1%.rawlog}.tum ;;
+        *) log=$(cd "$here" && realpath "$1") poses=${log%.rawlog}.tum ;;
     esac
 }
 
@@ -41,7 +42,7 @@ for recording in "${recordings[@]}"; do
     folder=$out/$(basename "$recording" .rawlog)
     mkdir -p "$folder"
     "$bin/hgmm-slam" "$log" -o "$folder" >"$folder/log" 2>"$folder/progress" ||
-        { echo "$recording failed: $(tail -n 1 "$folder/progress")"; continue; }
+        { echo "$recording failed: $(tail -n 1 "$folder/progress")"; failed=1; continue; }
     echo "$recording: $(head -n 1 "$folder/log")"
     [[ -f ${poses:-} ]] &&
         scripts/trajectory_error.py "$folder/trajectory.tum" "$poses" |
@@ -51,3 +52,4 @@ for recording in "${recordings[@]}"; do
         printf("  end (%.2f, %.2f, %.1f deg): off by %.2f m, %.1f deg\n", $2, $3, yaw,
                sqrt(($2 - 4.23) ^ 2 + ($3 + 18.46) ^ 2), yaw + 87.7) }'
 done
+exit $failed

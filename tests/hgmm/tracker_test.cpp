@@ -190,6 +190,45 @@ TEST(ScanTracker, IsLostElsewhere) {
     EXPECT_TRUE(found.lost);
 }
 
+/// Odometry that leaves its map, here through a wall, begins anew instead of being lost for
+/// ever.
+TEST(ScanTracker, GoesOnWhereItsMapDoesNotReach) {
+    const RoomScanner scanner = smallScanner();
+    RoomScanner hall = scanner;
+    hall.room = {Eigen::Vector3d(-15, -12, -3), Eigen::Vector3d(15, 12, 9)};
+    hall.furniture.clear();
+    ScanTracker tracker({}, {}, at(walk(0)));
+    double time_s = 0;
+    for (int k = 0; k < 5; ++k)
+        tracker.track(scanner.scan(walk(k), k), time_s += kPeriod_s);
+    const Pose far = poseAt(2, 3, 2, 0.3);
+    int lost = 0;
+    TrackedPose last;
+    for (int k = 0; k < 12; ++k) {
+        last = tracker.track(hall.scan(far, 50 + k), time_s += kPeriod_s);
+        lost += last.lost ? 1 : 0;
+    }
+    EXPECT_GT(lost, 0);
+    EXPECT_LT(lost, 8);
+    EXPECT_FALSE(last.lost);
+    EXPECT_GT(last.overlap, 0.5);
+}
+
+TEST(ScanTracker, CovariancesAreChecked) {
+    PoseEstimate start;
+    start.covariance(2, 2) = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(ScanTracker({}, {}, start), std::invalid_argument);
+    start.covariance = -Registration::Covariance::Identity();
+    EXPECT_THROW(ScanTracker({}, {}, start), std::invalid_argument);
+    ScanTracker tracker;
+    const Scan scan = smallScanner().scan(walk(0), 1);
+    tracker.track(scan, 0);
+    MotionIncrement odometry;
+    odometry.covariance.setZero();
+    EXPECT_THROW(tracker.track(scan, 1, odometry), std::invalid_argument);
+    EXPECT_FALSE(tracker.track(scan, 1).lost);
+}
+
 TEST(ScanTracker, DoesNotDependOnThreads) {
     const RoomScanner scanner = smallScanner();
     const auto run = [&](int threads) {

@@ -46,21 +46,21 @@ Odometry::Odometry(const MapParams& map, const Pose& T_robot_sensor)
 UncertainPose Odometry::step(const Scan& scan, double time_s,
                              const std::optional<UncertainPose>& T_previous_robot) {
     std::optional<MotionIncrement> increment;
+    const UncertainPose T_robot_sensor{T_robot_sensor_, Matrix6d::Zero()};
+    const UncertainPose T_sensor_robot{T_robot_sensor_.inverse(), Matrix6d::Zero()};
     if (started_ && T_previous_robot) {
-        const Pose T_last_now =
-            T_robot_sensor_.inverse() * T_previous_robot->T_a_b * T_robot_sensor_;
-        const Eigen::Matrix3d R_sensor_robot = T_robot_sensor_.R.transpose();
-        increment = {T_last_now, rotated(T_previous_robot->covariance, R_sensor_robot)};
+        const UncertainPose T_last_now =
+            T_sensor_robot * *T_previous_robot * T_robot_sensor;
+        increment = {T_last_now.T_a_b, T_last_now.covariance};
     }
     const TrackedPose now = tracker_.track(scan, time_s, increment);
     const TrackedPose before = started_ ? last_ : now;
     last_ = now;
     started_ = true;
-    const Pose T_map_before = before.T_map_sensor * T_robot_sensor_.inverse();
-    const Pose T_map_now = now.T_map_sensor * T_robot_sensor_.inverse();
-    const Eigen::Matrix3d R_before_map = T_map_before.R.transpose();
-    return {T_map_before.inverse() * T_map_now,
-            rotated(growth(before.covariance, now.covariance), R_before_map)};
+    const UncertainPose T_before_now{before.T_map_sensor.inverse() * now.T_map_sensor,
+                                     rotated(growth(before.covariance, now.covariance),
+                                             before.T_map_sensor.R.transpose())};
+    return T_robot_sensor * T_before_now * T_sensor_robot;
 }
 
 }  // namespace hgmm::slam

@@ -31,7 +31,8 @@ UncertainPose withDrift(const UncertainPose& motion, const DriftParams& drift) {
 
 void requireRigid(const Pose& pose, const char* name) {
     const Eigen::Matrix3d off = pose.R.transpose() * pose.R - Eigen::Matrix3d::Identity();
-    if (!pose.t.allFinite() || !(off.cwiseAbs().maxCoeff() < 1e-3))
+    if (!pose.t.allFinite() || !(off.cwiseAbs().maxCoeff() < 1e-3) ||
+        !(pose.R.determinant() > 0))
         throw std::invalid_argument(std::string(name) + ": is not a rigid transform");
 }
 
@@ -171,6 +172,8 @@ void SubmapSlam::add(const ScanSamples& scan, const Pose& T_robot_sensor,
     Impl& s = *impl_;
     requireRigid(T_robot_sensor, "T_robot_sensor");
     requireRigid(T_previous_robot.T_a_b, "T_previous_robot");
+    if (!T_previous_robot.covariance.allFinite())
+        throw std::invalid_argument("T_previous_robot: the covariance is not finite");
     if (s.isFinished()) throw std::logic_error("SubmapSlam::add: was called after finish");
     const double range_m = medianRange(scan.samples_sensor);
     if (!s.started) {

@@ -37,7 +37,8 @@ std::vector<Pose> guessesAbout(const UncertainPose& T_target_source,
         const double side = 2.0 * std::ceil(std::max(0.0, width_m / step_m - 0.5)) + 1.0;
         return side * side * static_cast<double>(turns.size());
     };
-    while (count() > static_cast<double>(kMaxGuesses)) step_m *= 1.25;
+    while (count() > static_cast<double>(kMaxGuesses) && step_m < 2.0 * width_m)
+        step_m *= 1.25;
     const std::vector<double> shifts = lattice(width_m, step_m);
 
     const Eigen::Vector3d centre_target = pose.R * centre_source + pose.t;

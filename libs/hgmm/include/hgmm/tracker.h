@@ -20,11 +20,11 @@ struct TrackerParams {
     int maxSamples = 2000;  ///< of a scan, evenly spread, that are aligned [count], >= 50
     double minOverlap = 0.12;  ///< with less on surfaces, the sensor is lost [1], in (0, 1]
     /// Odometry enters a scan into its map when the sensor has moved so far since the last
-    /// one [m], >= 0,
-    double insertEvery_m = 0.1;
-    double insertEvery_rad = 0.05;  ///< or has turned so far [rad], >= 0
+    /// one [m],
+    double insertEvery_m = 0.1;     ///< in [0, 1e3]
+    double insertEvery_rad = 0.05;  ///< or has turned so far [rad], in [0, 7]
     /// Odometry begins a new map when the sensor is so far from where the map began [m],
-    /// > 0. It takes over the scans of the last quarter of this way.
+    /// in [1, 1e6]. It takes over the scans of the last quarter of this way, at most 300.
     double mapRadius_m = 100.0;
 
     /// Throws std::invalid_argument naming the field.
@@ -65,17 +65,19 @@ struct TrackedPose : PoseEstimate {
 /// not hold are left to the prior, whose covariance grows there. Planar lasers move in
 /// their plane only. Where little of a scan is found, mixtures are registered
 /// (RegistrationTarget), which looks farther; where that fails, too, the sensor is lost.
+/// Odometry that is lost for five scans goes on from the prior in a new map.
 ///
 /// The same input gives the same poses for any number of threads. Not for concurrent use.
 class HGMM_EXPORT ScanTracker {
  public:
     /// Odometry, in a map of its own. The first scan is at `start`.
-    /// Throws std::invalid_argument for params out of range.
+    /// Throws std::invalid_argument for params out of range or a start that is not rigid or
+    /// whose covariance is not positive definite.
     explicit ScanTracker(const MapParams& mapParams = {}, const TrackerParams& params = {},
                          const PoseEstimate& start = {});
     /// Localisation in a map that does not change. The first scan is about at `start`.
     /// Throws std::invalid_argument for params out of range, a null or empty map, or a
-    /// start that is not rigid.
+    /// start as above.
     ScanTracker(std::shared_ptr<const Map> map, const PoseEstimate& start,
                 const TrackerParams& params = {});
     ScanTracker(ScanTracker&&) noexcept;
@@ -93,9 +95,6 @@ class HGMM_EXPORT ScanTracker {
     TrackedPose track(const Scan& scan, double time_s,
                       const std::optional<MotionIncrement>& odometry = std::nullopt,
                       const std::vector<float>& pointTimes_s = {});
-
-    /// Goes on from another pose, its velocity unknown.
-    void moveTo(const PoseEstimate& estimate);
 
     /// The map: its own so far, or the given one.
     const Map& map() const;

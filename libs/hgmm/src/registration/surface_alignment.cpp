@@ -114,7 +114,6 @@ class Aligner {
         const double enough_m = std::max(
             kSmallestStep_m, kSmallestStepShare * kernel.at(samples_.gyrationRadius_m));
         for (int k = 0; k < maxIterations; ++k) {
-            ++result_.iterations;
             const AlignmentSums sums = sumsAt(kernel);
             const HeldDirections held(sums, allowed_, samples_, result_.T_target_sensor.R);
             result_.observable = held.count();

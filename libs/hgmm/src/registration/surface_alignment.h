@@ -51,7 +51,6 @@ struct SurfaceAlignment {
     Matrix6d covariance = Matrix6d::Identity();
     int observable = 0;    ///< directions that the surfaces hold [count], 0 to 6
     double overlap = 0.0;  ///< share of the samples that lie on a surface, [0, 1]
-    int iterations = 0;    ///< of all stages
 };
 
 /// Aligns samples with surfaces: Gauss-Newton steps on the distances along the normals of

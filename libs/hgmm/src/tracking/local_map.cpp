@@ -8,6 +8,8 @@ namespace {
 
 /// A new map takes over the scans of this share of its radius.
 constexpr double kTakenOver = 0.25;
+/// And no more of them: a sensor that turns in place goes no way [scans].
+constexpr std::size_t kMostTakenOver = 300;
 
 }  // namespace
 
@@ -27,7 +29,8 @@ bool LocalMap::insert(const ScanSamples& samples, const Pose& T_map_sensor) {
         way_m_ += (T_map_sensor.t - recent_.back().T_map_sensor.t).norm();
     map_->insert(samples, T_map_sensor);
     recent_.push_back({samples, T_map_sensor, way_m_});
-    while (way_m_ - recent_.front().way_m > kTakenOver * params_.mapRadius_m)
+    while (way_m_ - recent_.front().way_m > kTakenOver * params_.mapRadius_m ||
+           recent_.size() > kMostTakenOver)
         recent_.pop_front();
     if ((T_map_sensor.t - begin_).norm() > params_.mapRadius_m) beginAnew();
     return true;

@@ -41,8 +41,6 @@ class PriorDeviation {
 
     SearchRadius now() const;
     void learn(const Pose& prior, const Pose& found);
-    /// Nothing is known of the motion.
-    void restart() { count_ = 0; }
 
  private:
     SearchRadius first_;

@@ -1,8 +1,10 @@
 #include "hgmm/tracker.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "base/require_rigid.h"
 #include "registration/surface_alignment.h"
@@ -13,8 +15,9 @@ namespace hgmm {
 
 namespace {
 
-/// With less of a scan found, mixtures are registered, in case it is elsewhere [1].
-constexpr double kLittle = 0.45;
+/// With less of a scan found, or less than this share of what was found of the last one,
+/// mixtures are registered, in case the sensor is elsewhere [1].
+constexpr double kLittle = 0.45, kFallen = 0.75;
 /// Registration looks so far about the prior [m], [rad].
 constexpr double kSearch_m = 0.7, kSearch_rad = 0.4;
 /// What it finds may be off by this much [m], [rad].
@@ -28,14 +31,23 @@ constexpr float kSurelyFree = 0.8F;
 constexpr double kContradicted = 0.7;
 /// It is taken if it explains so much more of the scan [1].
 constexpr double kBetterBy = 0.05;
-/// With less than this share of what was found of the last scan, the scan is aligned from
-/// close to the prior as well: kernels that are too wide may find another place [1].
-constexpr double kFallen = 0.85;
+/// A motion is not guessed to go on for longer than this [s].
+constexpr double kLongestGuess_s = 1.0;
+/// Odometry that recognises no scan so often in a row goes on from the prior in a new map
+/// [scans]: the sensor is where the old one does not reach.
+constexpr int kAnewAfter = 5;
 
 /// Standard deviations of position and rotation, of all axes together.
 SearchRadius deviationOf(const Matrix6d& covariance) {
     return {std::sqrt(covariance.bottomRightCorner<3, 3>().trace()),
             std::sqrt(covariance.topLeftCorner<3, 3>().trace())};
+}
+
+void requireCovariance(const Registration::Covariance& covariance, const char* what) {
+    if (!covariance.allFinite() ||
+        Eigen::LLT<Matrix6d>(Matrix6d(covariance)).info() != Eigen::Success)
+        throw std::invalid_argument(std::string(what) +
+                                    ": the covariance is not positive definite");
 }
 
 SearchRadius wider(const SearchRadius& a, const SearchRadius& b) {
@@ -62,6 +74,7 @@ struct ScanTracker::Impl {
           deviation({params.firstDeviation_m, params.firstDeviation_rad}),
           local(mapParams, params) {
         requireRigid(start.T_map_sensor, "tracker: the start");
+        requireCovariance(start.covariance, "tracker: the start");
     }
 
     static const TrackerParams& checked(const TrackerParams& params) {
@@ -80,6 +93,8 @@ struct ScanTracker::Impl {
                                  const AlignmentSamples& few) const;
     double shareInFreeSpace(const Pose& T_map_sensor) const;
     void renewTarget();
+    /// A map of the last scan alone. Returns whether it is in it.
+    bool beginAnew();
 
     TrackerParams params;
     PoseEstimate pose;             ///< of the last scan
@@ -87,6 +102,7 @@ struct ScanTracker::Impl {
     std::optional<Velocity> velocity;
     PriorDeviation deviation;
     double overlap = 0.0;  ///< of the last scan
+    int lostInARow = 0;    ///< scans that hold points
     ScanSamples samples;   ///< of the last scan
     LocalMap local;
     std::shared_ptr<const Map> given;  ///< null: odometry
@@ -101,7 +117,10 @@ void ScanTracker::Impl::require(const Scan& scan, double time,
         throw std::invalid_argument("tracker: the time is not finite");
     if (time_s && time < *time_s)
         throw std::invalid_argument("tracker: a scan is earlier than the last");
-    if (odometry) requireRigid(odometry->T_last_now, "tracker: odometry");
+    if (odometry) {
+        requireRigid(odometry->T_last_now, "tracker: odometry");
+        requireCovariance(odometry->covariance, "tracker: odometry");
+    }
     if (!pointTimes_s.empty() && pointTimes_s.size() != scan.size())
         throw std::invalid_argument("tracker: another number of times than of points");
 }
@@ -115,7 +134,8 @@ PoseEstimate ScanTracker::Impl::predict(
     if (!time_s) return pose;
     if (odometry) return compose(pose, *odometry);
     MotionIncrement motion;
-    if (velocity) motion.T_last_now = velocity->after(sinceLast(time));
+    if (velocity)
+        motion.T_last_now = velocity->after(std::min(sinceLast(time), kLongestGuess_s));
     motion.covariance = covarianceOf(deviation.now());
     return compose(pose, motion);
 }
@@ -137,11 +157,7 @@ SurfaceAlignment ScanTracker::Impl::align(const PoseEstimate& prior) {
                                static_cast<std::size_t>(params.maxSamples));
     const SearchRadius off = wider(deviation.now(), deviationOf(prior.covariance));
     SurfaceAlignment found = alignedFrom(prior, off, few);
-    if (found.overlap < kFallen * overlap) {
-        const SurfaceAlignment closer = alignedFrom(prior, kFound, few);
-        if (closer.overlap > found.overlap) found = closer;
-    }
-    if (found.overlap < kLittle) {
+    if (found.overlap < std::max(kLittle, kFallen * overlap)) {
         RegistrationParams search;
         search.coarseWidth_m = kSearch_m;
         search.coarseAngle_rad = kSearch_rad;
@@ -181,6 +197,15 @@ double ScanTracker::Impl::shareInFreeSpace(const Pose& T_map_sensor) const {
 
 void ScanTracker::Impl::renewTarget() {
     target = std::make_unique<PatchTree<3>>(map().mixture());
+}
+
+bool ScanTracker::Impl::beginAnew() {
+    lostInARow = 0;
+    overlap = 0.0;
+    local.clear();
+    const bool isIn = local.insert(samples, pose.T_map_sensor);
+    renewTarget();
+    return isIn;
 }
 
 ScanTracker::ScanTracker(const MapParams& mapParams, const TrackerParams& params,
@@ -242,14 +267,9 @@ TrackedPose ScanTracker::track(const Scan& scan, double time_s,
         now.inserted = true;
         t.renewTarget();
     }
+    t.lostInARow = now.lost && !t.samples.samples_sensor.empty() ? t.lostInARow + 1 : 0;
+    if (!t.given && t.lostInARow >= kAnewAfter) now.inserted = t.beginAnew();
     return now;
-}
-
-void ScanTracker::moveTo(const PoseEstimate& estimate) {
-    requireRigid(estimate.T_map_sensor, "tracker: the pose");
-    impl_->pose = estimate;
-    impl_->velocity.reset();
-    impl_->deviation.restart();
 }
 
 const Map& ScanTracker::map() const {

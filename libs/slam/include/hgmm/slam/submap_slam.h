@@ -50,7 +50,8 @@ class SubmapSlam {
     /// @param T_robot_sensor where the sensor is on the robot
     /// @param T_previous_robot how the robot moved since the scan before, as odometry has
     /// it; of no meaning for the first one
-    /// Throws std::invalid_argument for a pose that is not finite or not rigid, and
+    /// Throws std::invalid_argument for a pose that is not finite or not rigid,
+    /// a covariance that is not finite, and
     /// std::logic_error after finish().
     void add(const ScanSamples& scan, const Pose& T_robot_sensor,
              const UncertainPose& T_previous_robot);
