@@ -1,6 +1,7 @@
 #include "report_page.h"
 
 #include <cstdio>
+#include <filesystem>
 
 #include "hgmm/evaluation/python_module.h"
 #include "hgmm/mrpt_bridge/output_file.h"
@@ -33,6 +34,8 @@ void makePage(const Options& options) {
         hgmm::mrpt_bridge::writeFile(folder + "/report.html", made.output);
         std::fputs(made.message.c_str(), stderr);
     } else {
+        // A page of an earlier run would show other figures than those beside it.
+        std::filesystem::remove(folder + "/report.html");
         std::fprintf(
             stderr,
             "report.html was not made (%s); %s/metrics.json is complete, and 'python3 -m "

@@ -1,24 +1,37 @@
 """Files and messages of the programs of this package."""
 import os
+import socket
 import sys
 
 
-def write_whole(file, content):
+def write_whole(file, content, inputs=()):
     """Writes text or bytes to a file that appears under its name only when it is whole; `-` is
-    the terminal."""
+    the terminal. A symbolic link stays; what is no regular file, such as a pipe, is written to.
+
+    inputs: files that were read. Raises ValueError if `file` is one of them.
+    """
     if isinstance(content, str):
         content = content.encode()
     if str(file) == "-":
         sys.stdout.buffer.write(content)
         sys.stdout.buffer.flush()
         return
-    part = f"{file}.part{os.getpid()}"
+    target = os.path.realpath(file)
+    if os.path.exists(target):
+        if any(os.path.exists(i) and os.path.samefile(target, i) for i in inputs):
+            raise ValueError(f"{file}: is an input, too")
+        if not os.path.isfile(target):
+            with open(target, "wb") as out:
+                out.write(content)
+            return
+    # Programs on several machines may share a folder.
+    part = f"{target}.part{os.getpid()}-{socket.gethostname()}"
     try:
         with open(part, "wb") as out:
             out.write(content)
             out.flush()
             os.fsync(out.fileno())
-        os.replace(part, file)
+        os.replace(part, target)
     except OSError as error:
         if os.path.exists(part):
             os.remove(part)

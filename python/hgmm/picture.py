@@ -78,7 +78,7 @@ def main():
         raise ValueError("--yaw and --pitch must be finite")
     picture = picture_of(Map.load(asked.map).mixture(asked.level), asked.yaw, asked.pitch,
                          asked.cut)
-    write_whole(asked.output or pathlib.Path(asked.map).with_suffix(".png"), picture)
+    write_whole(asked.output or pathlib.Path(asked.map).with_suffix(".png"), picture, [asked.map])
 
 
 if __name__ == "__main__":

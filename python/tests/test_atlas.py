@@ -224,6 +224,27 @@ def test_command(logs, cluster, tmp_path, capfd):
     assert Atlas(tmp_path / "atlas").occupancy([[1, 1, 0]]).free[0] > 0.5
 
 
+def test_a_foreign_folder_is_refused_and_left_alone(tmp_path):
+    (tmp_path / "tiles").mkdir()
+    (tmp_path / "tiles" / "mine.hgmm").write_text("mine")
+    (tmp_path / "index.json").write_text('{"format": "of another program"}')
+    with pytest.raises(ValueError, match="no index of an atlas"):
+        new_folder(tmp_path)
+    assert (tmp_path / "tiles" / "mine.hgmm").read_text() == "mine"
+    assert json.loads((tmp_path / "index.json").read_text())["format"] == "of another program"
+
+
+def test_rays_outside_a_box_do_not_count_however_far_the_origin_is():
+    from hgmm.atlas.tasks import has_rays
+    points_sensor = scan_room(pose_at(0, 0, 0))
+    for origin in ([0, 0, 0], [480_000, 5_400_000, 0]):
+        made = hgmm.Map()
+        made.insert(points_sensor, pose_at(*origin))
+        outside = numpy.add(origin, [HALF_SIZES[0] + 2.0, -1, -1])
+        assert not has_rays(made, (outside, outside + 2.0))
+        assert has_rays(made, (numpy.subtract(origin, 1.0), numpy.add(origin, 1.0)))
+
+
 def test_bad_input_is_said_and_loses_nothing(logs, cluster, tmp_path, capfd):
     address = ["--scheduler", cluster.scheduler_address]
     poses = [log.replace("rawlog", "tum") for log in logs]

@@ -50,7 +50,8 @@ def main(words=None):
               file=sys.stderr)
         return WRONG_USAGE
     try:
-        import distributed  # noqa: F401: everything else of the package works without it
+        # Everything else of the package works without it.
+        from distributed.scheduler import KilledWorker
     except ImportError:
         print("hgmm-atlas: needs Dask distributed (Debian: python3-distributed)", file=sys.stderr)
         return BAD_INPUT
@@ -59,7 +60,7 @@ def main(words=None):
     except KeyboardInterrupt:
         print("hgmm-atlas: interrupted; the same command goes on", file=sys.stderr)
         return INTERRUPTED
-    except (OSError, ValueError, RuntimeError) as error:
+    except (OSError, ValueError, RuntimeError, KilledWorker) as error:
         print(f"hgmm-atlas: {error}", file=sys.stderr)
         return BAD_INPUT
 

@@ -1,8 +1,10 @@
 """Where an atlas keeps its files, and how they are written: completely or not at all."""
 import json
-import os
 import pathlib
-import tempfile
+
+from hgmm.output import write_whole
+
+FORMAT = "hgmm-atlas"
 
 
 class Folder:
@@ -40,23 +42,21 @@ class Folder:
         if (self.path.is_dir() and any(self.path.iterdir())
                 and not self.index.exists() and not self.work.is_dir()):
             raise ValueError(f"{self.path}: holds other files than an atlas; name a new folder")
+        if self.index.exists() and read_format(self.index) != FORMAT:
+            raise ValueError(f"{self.index}: is no index of an atlas; name a new folder")
         self.work.mkdir(parents=True, exist_ok=True)
         (self.path / "tiles").mkdir(exist_ok=True)
 
 
-def write_json(file, content):
-    handle, temporary = tempfile.mkstemp(prefix=f".{file.name}.", dir=file.parent)
+def read_format(file):
     try:
-        with os.fdopen(handle, "w") as out:
-            json.dump(content, out, indent=1)
-            out.write("\n")
-            out.flush()
-            os.fsync(out.fileno())
-        os.chmod(temporary, 0o644)
-        os.replace(temporary, file)
-    except BaseException:
-        os.unlink(temporary)
-        raise
+        return read_json(file).get("format")
+    except (ValueError, AttributeError):
+        return None
+
+
+def write_json(file, content):
+    write_whole(file, json.dumps(content, indent=1) + "\n")
 
 
 def read_json(file):

@@ -6,7 +6,7 @@ import uuid
 from distributed import as_completed
 
 from hgmm.atlas import plan, tasks
-from hgmm.atlas.files import write_json
+from hgmm.atlas.files import FORMAT, write_json
 
 RETRIES = 2
 """how often a task that failed is tried again, elsewhere if possible"""
@@ -19,11 +19,12 @@ def make_atlas(client, segments, settings, folder, tell=lambda text: None):
     Returns the index. Raises TaskError.
     """
     shards = map_segments(client, segments, settings, folder, tell)
+    folder.index.unlink(missing_ok=True)  # it would describe other tiles than there are
     entries = merge_tiles(client, shards, folder, tell)
     for entry in entries:
         tile = plan.Tile(entry["x"], entry["y"])
         entry["segments"] = [number for number, of in enumerate(shards) if tile in of]
-    index = {"format": "hgmm-atlas", "version": 1, "tile_m": settings.tile_m,
+    index = {"format": FORMAT, "version": 1, "tile_m": settings.tile_m,
              "margin_m": settings.margin_m,
              "segments": [{"log": pathlib.Path(s.log).name, "first": s.first, "last": s.last}
                           for s in segments],

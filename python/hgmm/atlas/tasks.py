@@ -79,7 +79,7 @@ def tiles_of(made, tile_m):
 
 def has_rays(made, box):
     """Whether rays passed a box. A crop also knows of rays behind its surfaces, outside."""
-    everything = numpy.full(3, -1e6), numpy.full(3, 1e6)
+    everything = numpy.full(3, -1e9), numpy.full(3, 1e9)
     part = made.crop(*box)
     part.forget(*everything)
     return part.crop(*box).coverage_bytes > 0

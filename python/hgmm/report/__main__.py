@@ -24,7 +24,9 @@ def main():
     asked = arguments()
     page = make_report(asked.folder, asked.poses,
                        say=lambda text: print(f"hgmm.report: {text}", file=sys.stderr))
-    write_whole(asked.output or asked.folder / "report.html", page)
+    read = [*asked.folder.glob("*.json"), *asked.folder.glob("*.hgmm"), *asked.folder.glob("*.ply"),
+            *([asked.poses] if asked.poses else [])]
+    write_whole(asked.output or asked.folder / "report.html", page, read)
 
 
 if __name__ == "__main__":

@@ -97,7 +97,12 @@ def view_of(folder, files, poses, title, say):
         return ""
     points = read_points(folder / files["points"]) if "points" in files else None
     try:
-        page = make_page(scene_of(map_, read_poses(poses) if poses else None, points, say), title)
+        path = read_poses(poses) if poses else None
+    except ValueError as error:
+        say(f"the view is without the path: {error}")
+        path = None
+    try:
+        page = make_page(scene_of(map_, path, points, say), title)
     except ImportError as error:
         say(f"the report is without a view of the map: {error}")
         return ""
@@ -162,6 +167,13 @@ def make_report(folder, poses=None, say=lambda text: None):
     Raises OSError and ValueError for files that cannot be used.
     """
     metrics = read_metrics(folder)
+    try:
+        return page_of(folder, metrics, poses, say)
+    except (KeyError, TypeError) as error:
+        raise ValueError(f"{folder}/metrics.json: lacks {error}") from None
+
+
+def page_of(folder, metrics, poses, say):
     title = metrics["dataset"]["name"] if "dataset" in metrics else metrics["study"]
     maps = metrics.get("maps", [])
     style = (importlib.resources.files("hgmm.report") / "report.css").read_text(encoding="utf-8")

@@ -130,8 +130,7 @@ def memory(maps):
 
 def studied(plot):
     """A plot that a study put into metrics.json."""
-    curves = [Curve(finite(c["points"]), c.get("label", ""), c.get("emphasised", False),
-                    c.get("markers", False)) for c in plot["curves"]]
+    curves = [Curve(finite(c["points"]), c.get("label", ""), c.get("emphasised", False)) for c in plot["curves"]]
     return Plot(plot["title"], plot["x_label"], plot["y_label"], curves)
 
 

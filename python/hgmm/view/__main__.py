@@ -36,7 +36,8 @@ def main():
     scene = scene_of(map_, poses, points,
                      say=lambda text: print(f"{asked.map}: {text}", file=sys.stderr))
     page = make_page(scene, asked.title or pathlib.Path(asked.map).stem, asked.up)
-    write_whole(asked.output or pathlib.Path(asked.map).with_suffix(".html"), page)
+    read = [file for file in (asked.map, asked.poses, asked.points) if file]
+    write_whole(asked.output or pathlib.Path(asked.map).with_suffix(".html"), page, read)
 
 
 if __name__ == "__main__":

@@ -53,7 +53,7 @@ def add_ellipsoids(archive, name, ellipsoids):
         archive.add(f"{name}.{field}", getattr(ellipsoids, field))
 
 
-def described(scene, title, up):
+def described(scene, up):
     """The scene as a table of facts, which JSON can hold, and an archive of its arrays."""
     archive = Archive()
     add_ellipsoids(archive, "surfaces", scene.surfaces)
@@ -94,7 +94,7 @@ def make_page(scene, title, up="z"):
     Raises ImportError where three.js is not installed.
     """
     library = three_js()
-    facts, arrays = described(scene, title, up)
+    facts, arrays = described(scene, up)
     parts = {
         "TITLE": html.escape(title),
         "STYLE": web("view.css"),

@@ -129,8 +129,8 @@ def scene_of(map_, poses=None, points=None, say=lambda text: None):
     levels = info["levels"]
     finest = finest_shown(levels)
     if finest > 0:
-        say(f"levels below {finest} are left out, for their {levels[0]['surface']} surfaces are "
-            "more than a page can hold")
+        say(f"levels below {finest} are left out: with them there are more than "
+            f"{MOST_COMPONENTS} components")
     mixtures = [map_.mixture(level) for level in range(finest, len(levels))]
     free = [map_.free_mixture(level) for level in range(finest, len(levels))]
     lattice = lattice_of(map_, map_.mixture())

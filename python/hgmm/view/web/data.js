@@ -1,6 +1,9 @@
 // The facts of the scene and its arrays, as page.py put them into the page.
 const facts = JSON.parse(document.getElementById('facts').textContent);
 
+// Of answers in steps of 1/50, as slices.py makes them: whether unknown is the likeliest.
+const isUnknown = (occupied, free) => 50 - occupied - free > Math.max(occupied, free);
+
 const arrayKinds = {
     float32: Float32Array, float64: Float64Array, int16: Int16Array, uint8: Uint8Array,
 };

@@ -26,7 +26,7 @@ function unknownPlaces(answers, most) {
     const {counts, low, cell} = facts.lattice;
     const unknown = [];
     for (let i = 0; i < answers.length / 2; ++i)
-        if (answers[2 * i] + answers[2 * i + 1] < 25) unknown.push(i);
+        if (isUnknown(answers[2 * i], answers[2 * i + 1])) unknown.push(i);
     // An odd step meets all columns of the lattice.
     const step = Math.max(1, Math.ceil(unknown.length / most)) | 1;
     const places = [];

@@ -33,7 +33,7 @@ class Slice {
         const {counts} = this.lattice, known = new Array(counts[axis]).fill(0);
         const stride = [1, counts[0], counts[0] * counts[1]][axis];
         for (let i = 0; i < this.answers.length / 2; ++i)
-            if (this.answers[2 * i] + this.answers[2 * i + 1] > 25)
+            if (!isUnknown(this.answers[2 * i], this.answers[2 * i + 1]))
                 ++known[Math.floor(i / stride) % counts[axis]];
         return known;
     }
