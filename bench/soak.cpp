@@ -189,6 +189,11 @@ int main(int argc, char** argv) {
     app.add_option("--scans", scans, "How many, in tens")->check(CLI::Range(10, 10000000));
     app.add_option("--state", file, "File to go on from later");
     CLI11_PARSE(app, argc, argv);
+    if (scans % kTenths != 0) {
+        std::fprintf(stderr, "bench-soak: --scans must be a multiple of %d\n",
+                     int(kTenths));
+        return 1;
+    }
     try {
         return soak(kind, scans, file);
     } catch (const std::exception& e) {

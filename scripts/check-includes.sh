@@ -62,6 +62,11 @@ above() {
     done < <(includes "$folder")
     return 0
 }
+# Of a function in a header the linker keeps one, maybe that of an instruction set which the processor
+# does not have: what is compiled for one includes nothing but plain arrays.
+for file in $core/src/*/*_kernel.h $core/src/*/*_kernel_loops.h $core/src/*/*_avx2.cpp; do
+    ! grep -q '#include <' "$file" || complain "$file: is compiled for one instruction set, and includes more"
+done
 above libs/hgmm '^(hgmm/(evaluation|slam|mrpt_bridge)|nlohmann|CLI)/'
 above libs/mrpt-hgmm '^(hgmm/(evaluation|slam)|nlohmann|CLI)/'
 above libs/slam '^(hgmm/evaluation|nlohmann|CLI)/'

@@ -54,6 +54,7 @@ case ${1:-} in
     --random)
         build=build
         first=$(awk -F'[ |]+' '/random to/ { last = $7 } END { print last + 1 }' "$log")
+        cmake --preset release >/dev/null && cmake --build --preset release --target fuzz-sequence
         SECONDS=0
         OMP_NUM_THREADS=1 nice -n 19 "$build/fuzz/fuzz-sequence" --random "${2:?count}" "$first" || found=1
         note "random to $((first + $2 - 1))" "$SECONDS" "$2" - "$found"

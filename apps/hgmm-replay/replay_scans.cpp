@@ -138,10 +138,13 @@ Replayed replayScans(Recording& recording, mrpt::maps::CHGMMOccupancyMap::Ptr ma
     Progress progress(recording.size(), options.quiet);
     while (const std::optional<RecordedScan> recorded = recording.next()) {
         const Clock::time_point start = Clock::now();
+        auto& insertion = replayed.map->insertionOptions;
+        if (!insertion.params.modalities.empty())
+            hgmm::mrpt_bridge::settleIntensityScale(*recorded->observation,
+                                                    insertion.reading);
         std::optional<hgmm::Scan> scan = hgmm::mrpt_bridge::observationToScan(
             *recorded->observation, recorded->T_map_robot,
-            hgmm::mrpt_bridge::channelsFor(replayed.map->insertionOptions.params),
-            replayed.map->insertionOptions.reading);
+            hgmm::mrpt_bridge::channelsFor(insertion.params), insertion.reading);
         replayed.conversion_ms.push_back(millisecondsSince(start));
         if (scan) {
             points += scan->size();

@@ -4,6 +4,8 @@
 #include <stdexcept>
 
 #include "harness.h"
+#include "maps/octree_file.h"
+#include "maps/ros_map.h"
 #include "pcd_reader.h"
 #include "ply_reader.h"
 #include "pose_file.h"
@@ -36,6 +38,9 @@ void runOne(const std::uint8_t* data, std::size_t size) {
     camera.intrinsics = Intrinsics{500, 500, 320, 240};
     if (fs::exists(folder.path("a.pcd"))) tried([&] { readPcd(folder.path("a.pcd")); });
     if (fs::exists(folder.path("a.ply"))) tried([&] { readPly(folder.path("a.ply")); });
+    if (fs::exists(folder.path("a.bt"))) tried([&] { readOctree(folder.path("a.bt")); });
+    if (fs::exists(folder.path("a.yaml")))
+        tried([&] { readRosMap(folder.path("a.yaml"), 0); });
     if (fs::exists(folder.path("poses.txt")))
         tried([&] { readPoseFile(folder.path("poses.txt")); });
     if (fs::exists(folder.path("calib.txt")))

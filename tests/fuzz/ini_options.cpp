@@ -29,7 +29,10 @@ void runOne(const std::uint8_t* data, std::size_t size) {
     again.insertionOpts.loadFromConfigFile(config, "s");
     again.likelihoodOpts.loadFromConfigFile(config, "t");
     again.renderOpts.loadFromConfigFile(config, "u");
-    require(again.insertionOpts.params == one->insertionOpts.params,
+    require(again.insertionOpts.params == one->insertionOpts.params &&
+                again.insertionOpts.reading == one->insertionOpts.reading &&
+                again.likelihoodOpts == one->likelihoodOpts &&
+                again.renderOpts == one->renderOpts,
             "options that were read are written and read again");
 }
 

@@ -1,4 +1,4 @@
-#include "occupancy/band_kernel.h"
+#include "occupancy/band_kernels.h"
 
 #include <gtest/gtest.h>
 

@@ -172,6 +172,14 @@ TEST(KnownCells, MalformedOnesAreRefused) {
     EXPECT_THROW(Map::fromCells(cells), std::invalid_argument);
 }
 
+TEST(KnownPoints, FartherThanMapsGoIsRefused) {
+    EXPECT_THROW(Map::fromPoints({{1e12, 0, 0}, {1e12, 1, 0}}), std::invalid_argument);
+    KnownCells cells;
+    cells.edge_m = 100;
+    cells.occupied = {{{KnownCells::kFarthest, 0, 0}, 1}};
+    EXPECT_THROW(Map::fromCells(cells), std::invalid_argument);
+}
+
 TEST(KnownPoints, MakeSurfacesAndNothingFree) {
     std::vector<Eigen::Vector3d> points_map;
     for (int i = 0; i < 100; ++i)

@@ -14,8 +14,8 @@ namespace {
 
 using namespace testing;
 
-/// The checksum of map_io.cpp, written down a second time: the format is a promise.
-std::uint64_t checksum(const std::uint8_t* data, std::size_t size) {
+/// The checksum of io/checksum.h, written down a second time: the format is a promise.
+std::uint64_t promisedChecksum(const std::uint8_t* data, std::size_t size) {
     std::uint64_t h = 0xCBF29CE484222325ULL ^ size;
     for (std::size_t at = 0; at <= size; at += 8) {
         std::uint64_t word = 0;
@@ -54,7 +54,8 @@ std::vector<std::uint8_t> versionOne(const Mixture<3>& surfaces,
         for (const float v : axis) put(out, v);
     for (const auto& entry : surfaces.covariance)
         for (const float v : entry) put(out, v);
-    const std::uint64_t size = out.size(), sum = checksum(out.data() + 24, size - 24);
+    const std::uint64_t size = out.size(),
+                        sum = promisedChecksum(out.data() + 24, size - 24);
     std::memcpy(out.data() + 8, &size, 8);
     std::memcpy(out.data() + 16, &sum, 8);
     return out;

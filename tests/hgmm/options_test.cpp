@@ -10,6 +10,7 @@
 #include <set>
 
 #include "hgmm/map.h"
+#include "io/checksum.h"
 
 namespace hgmm {
 namespace {
@@ -247,27 +248,9 @@ std::vector<std::uint8_t> withOption(const std::string& name, const std::string&
     return buffer;
 }
 
-std::uint64_t checksumOf(const std::vector<std::uint8_t>& buffer) {
-    const std::uint8_t* data = buffer.data() + 24;
-    std::size_t size = buffer.size() - 24;
-    std::uint64_t h = 0xCBF29CE484222325ULL ^ size;
-    const auto mix = [&h](std::uint64_t word) {
-        h = (h ^ word) * 0x9E3779B97F4A7C15ULL;
-        h ^= h >> 32U;
-    };
-    for (; size >= 8; data += 8, size -= 8) {
-        std::uint64_t word = 0;
-        std::memcpy(&word, data, 8);
-        mix(word);
-    }
-    std::uint64_t tail = 0;
-    std::memcpy(&tail, data, size);
-    mix(tail);
-    return h;
-}
-
 Map loaded(std::vector<std::uint8_t> buffer) {
-    const std::uint64_t size = buffer.size(), sum = checksumOf(buffer);
+    const std::uint64_t size = buffer.size(),
+                        sum = checksum(buffer.data() + 24, buffer.size() - 24);
     std::memcpy(buffer.data() + 8, &size, sizeof size);
     std::memcpy(buffer.data() + 16, &sum, sizeof sum);
     return Map::load(buffer.data(), buffer.size());

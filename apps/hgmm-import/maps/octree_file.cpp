@@ -38,7 +38,7 @@ Header headerOf(const std::string& bytes) {
         if (key == "res") words >> header.resolution_m;
         if (key == "size") words >> header.nodes;
         if (key != "data") continue;
-        header.end = static_cast<std::size_t>(lines.tellg());
+        if (!lines.eof()) header.end = static_cast<std::size_t>(lines.tellg());
         break;
     }
     if (header.end == 0) throw std::runtime_error("its header has no end");

@@ -53,6 +53,9 @@ RawlogSource::RawlogSource(const std::string& file, const std::string& posesFile
 ImportedScan RawlogSource::load(std::size_t index) const {
     ImportedScan scan = scans_.at(index);
     try {
+        // A copy: what is loaded goes when it is written.
+        scan.observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(
+            scan.observation->duplicateGetSmartPtr());
         embed(*scan.observation);
     } catch (const std::exception& e) {
         throw std::runtime_error("scan " + std::to_string(index) +

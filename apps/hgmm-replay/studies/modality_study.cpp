@@ -93,7 +93,7 @@ class ModalityTrial {
     }
     void markInterrupted() { findings_.run.interrupted = true; }
 
-    const hgmm::mrpt_bridge::ReadingParams& reading() const {
+    hgmm::mrpt_bridge::ReadingParams& reading() {
         return coloured_->insertionOptions.reading;
     }
 
@@ -206,6 +206,7 @@ void modalityStudy(Recording& recording, const Options& options) {
     ModalityTrial study(recording, options);
     Progress progress(recording.size(), options.quiet);
     while (const auto recorded = recording.next()) {
+        hgmm::mrpt_bridge::settleIntensityScale(*recorded->observation, study.reading());
         auto scan = hgmm::mrpt_bridge::observationToScan(
             *recorded->observation, recorded->T_map_robot, hgmm::mrpt_bridge::Channels::all,
             study.reading());

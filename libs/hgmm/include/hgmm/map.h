@@ -66,13 +66,13 @@ class HGMM_EXPORT Map {
     /// A map that knows what a map of another kind does, as one of octrees or grids:
     /// surfaces, from the outer faces of occupied cells, seen from the side of the free
     /// cells; coverage, which is exactly the free cells; what is unknown stays so. Throws
-    /// std::invalid_argument for malformed cells (KnownCells::validate) and as the
-    /// constructor does.
+    /// std::invalid_argument for malformed cells (KnownCells::validate) or some beyond
+    /// kMaxPosition_m, and as the constructor does.
     static Map fromCells(const KnownCells& cells, const MapParams& params = {});
     /// A map of surfaces alone, from points that nobody knows where they were seen from:
     /// nothing is free, and components have no view directions. Points that are not finite
-    /// are left out. Throws std::invalid_argument for points that are too far apart, and as
-    /// the constructor does.
+    /// are left out. Throws std::invalid_argument for points that are too far apart or
+    /// beyond kMaxPosition_m, and as the constructor does.
     static Map fromPoints(const std::vector<Eigen::Vector3d>& points_map,
                           const MapParams& params = {});
 

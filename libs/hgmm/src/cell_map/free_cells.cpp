@@ -107,6 +107,10 @@ void appendUncovered(const LatticeCell& cell, const Coverage& coverage,
 
 /// To the nearest occupied one of the 26 cells around a cell [cells]; 0 if none is.
 double distanceToNeighbours(const Cell& c, const CellSet& occupied) {
+    // Most cells have none.
+    if (!occupied.containsAny({c[0] - 1, c[1] - 1, c[2] - 1},
+                              {c[0] + 1, c[1] + 1, c[2] + 1}))
+        return 0.0;
     int nearest = 4;
     for (int k = 0; k < 27; ++k) {
         const int x = k % 3 - 1, y = k / 3 % 3 - 1, z = k / 9 - 1;
@@ -114,7 +118,7 @@ double distanceToNeighbours(const Cell& c, const CellSet& occupied) {
         if (squared < nearest && occupied.contains({c[0] + x, c[1] + y, c[2] + z}))
             nearest = squared;
     }
-    return nearest == 4 ? 0.0 : std::sqrt(nearest);
+    return std::sqrt(nearest);
 }
 
 /// Half the edge of the first of growing cubes around a cell that holds an occupied one

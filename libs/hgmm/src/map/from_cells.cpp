@@ -17,7 +17,11 @@ namespace hgmm {
 namespace {
 
 /// The local frame begins in the middle of what is known, on the lattice of whole metres.
+/// Throws std::invalid_argument if that reaches farther than maps go.
 Eigen::Vector3d originFor(const Eigen::AlignedBox3d& known_map) {
+    if (!(known_map.min().cwiseAbs().maxCoeff() <= kMaxPosition_m &&
+          known_map.max().cwiseAbs().maxCoeff() <= kMaxPosition_m))
+        throw std::invalid_argument("reaches farther than 1e8 m from the origin");
     return known_map.center().array().round();
 }
 

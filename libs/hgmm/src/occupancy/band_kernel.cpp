@@ -1,6 +1,5 @@
-#include "occupancy/band_kernel.h"
-
 #include "occupancy/band_kernel_loops.h"
+#include "occupancy/band_kernels.h"
 
 namespace hgmm::bands {
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <vector>
 
 namespace hgmm::bands {
 
@@ -47,10 +46,5 @@ struct Kernel {
     /// exp(-squared / 2) in place, squared >= 0. `squared` is aligned to 32 bytes.
     void (*normalFall)(float* squared, int n);
 };
-
-/// Those that this processor runs, the fastest last.
-std::vector<const Kernel*> kernels();
-/// The fastest one.
-const Kernel& kernel();
 
 }  // namespace hgmm::bands

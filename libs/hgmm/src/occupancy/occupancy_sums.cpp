@@ -3,7 +3,7 @@
 
 #include "base/dual.h"
 #include "base/normal_mass.h"
-#include "occupancy/band_kernel.h"
+#include "occupancy/band_kernels.h"
 #include "occupancy/occupancy_model.h"
 
 namespace hgmm {

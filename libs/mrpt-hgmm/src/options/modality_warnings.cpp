@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hgmm/mrpt_bridge/observation_to_scan.h"
 #include "options/warnings.h"
 
 namespace hgmm::mrpt_bridge {

@@ -14,9 +14,4 @@ void warnOfForeignModalities(const Names& modalities, const std::string& section
 /// none of its modalities yet.
 void warnOfAbsentModalities(const Map& map, const Scan& scan);
 
-/// Gives intensityScale, where it is 0, the scale of an observation that tells one, and
-/// reports it.
-void settleIntensityScale(const mrpt::obs::CObservation& observation,
-                          ReadingParams& reading);
-
 }  // namespace hgmm::mrpt_bridge

@@ -77,6 +77,11 @@ std::optional<Scan> observationToScan(
 /// and 1.
 std::optional<double> intensityScaleOf(const mrpt::obs::CObservation& observation);
 
+/// Gives intensityScale, where it is 0, the scale of an observation that tells one, and
+/// reports it: before the first scan of a map that learns modalities.
+void settleIntensityScale(const mrpt::obs::CObservation& observation,
+                          ReadingParams& reading);
+
 /// Whether observationToScan knows the type, decided without converting anything.
 bool isSupported(const mrpt::obs::CObservation& observation);
 
