@@ -7,9 +7,9 @@
 #include <string>
 
 #include "base/require_rigid.h"
-#include "registration/surface_alignment.h"
 #include "tracking/local_map.h"
 #include "tracking/motion.h"
+#include "tracking/scan_alignment.h"
 
 namespace hgmm {
 
@@ -18,18 +18,12 @@ namespace {
 /// With less of a scan found, or less than this share of what was found of the last one,
 /// mixtures are registered, in case the sensor is elsewhere [1].
 constexpr double kLittle = 0.45, kFallen = 0.75;
-/// Registration looks so far about the prior [m], [rad].
-constexpr double kSearch_m = 0.7, kSearch_rad = 0.4;
-/// What it finds may be off by this much [m], [rad].
-constexpr SearchRadius kFound{0.1, 0.02};
-/// Samples that are asked whether they lie in space that is known to be free.
-constexpr std::size_t kAskedSamples = 200;
-/// P(free) of such space.
-constexpr float kSurelyFree = 0.8F;
 /// A given map is not where the sensor is if it calls so many times as much of a scan free
 /// as it explains [1].
 constexpr double kContradicted = 0.7;
-/// It is taken if it explains so much more of the scan [1].
+/// So many times as much is doubtful [1].
+constexpr double kDoubtful = 0.3;
+/// Another pose is taken if it explains so much more of the scan [1].
 constexpr double kBetterBy = 0.05;
 /// A motion is not guessed to go on for longer than this [s].
 constexpr double kLongestGuess_s = 1.0;
@@ -88,10 +82,7 @@ struct ScanTracker::Impl {
     PoseEstimate predict(double time_s,
                          const std::optional<MotionIncrement>& odometry) const;
     const Map& map() const { return given ? *given : *local.map(); }
-    SurfaceAlignment align(const PoseEstimate& prior);
-    SurfaceAlignment alignedFrom(const PoseEstimate& prior, const SearchRadius& off,
-                                 const AlignmentSamples& few) const;
-    double shareInFreeSpace(const Pose& T_map_sensor) const;
+    PoseHypothesis find(const PoseEstimate& prior) const;
     void renewTarget();
     /// A map of the last scan alone. Returns whether it is in it.
     bool beginAnew();
@@ -140,59 +131,21 @@ PoseEstimate ScanTracker::Impl::predict(
     return compose(pose, motion);
 }
 
-SurfaceAlignment ScanTracker::Impl::alignedFrom(const PoseEstimate& prior,
-                                                const SearchRadius& off,
-                                                const AlignmentSamples& few) const {
-    AlignmentPrior about;
-    about.T_target_sensor = {prior.T_map_sensor.R, prior.T_map_sensor.t - map().origin()};
-    about.covariance = prior.covariance;
-    about.deviation = off;
-    SurfaceAlignment found = alignToSurfaces(*target, few, about);
-    found.T_target_sensor.R = orthonormal(found.T_target_sensor.R);
-    return found;
-}
-
-SurfaceAlignment ScanTracker::Impl::align(const PoseEstimate& prior) {
-    const AlignmentSamples few(samples.samples_sensor, samples.normalOfRays_sensor,
-                               static_cast<std::size_t>(params.maxSamples));
+PoseHypothesis ScanTracker::Impl::find(const PoseEstimate& prior) const {
+    const ScanAlignment alignment(map(), *target, samples,
+                                  static_cast<std::size_t>(params.maxSamples));
     const SearchRadius off = wider(deviation.now(), deviationOf(prior.covariance));
-    SurfaceAlignment found = alignedFrom(prior, off, few);
-    if (found.overlap < std::max(kLittle, kFallen * overlap)) {
-        RegistrationParams search;
-        search.coarseWidth_m = kSearch_m;
-        search.coarseAngle_rad = kSearch_rad;
-        std::vector<const Mixture<3>*> levels;
-        for (std::size_t level = map().levelCount(); level > 0; --level)
-            levels.push_back(&map().mixture(level - 1));
-        const Registration coarse = registerMixtures(
-            levels, samples.samples_sensor,
-            {prior.T_map_sensor.R, prior.T_map_sensor.t - map().origin()}, search);
-        if (coarse.converged) {
-            PoseEstimate start = prior;
-            start.T_map_sensor = {orthonormal(coarse.T_target_source.R),
-                                  coarse.T_target_source.t + map().origin()};
-            start.covariance =
-                Matrix6d(prior.covariance) + covarianceOf({kSearch_m, kSearch_rad});
-            const SurfaceAlignment farther = alignedFrom(start, kFound, few);
-            if (farther.overlap > found.overlap + kBetterBy) found = farther;
-        }
-    }
-    return found;
-}
-
-double ScanTracker::Impl::shareInFreeSpace(const Pose& T_map_sensor) const {
-    const AlignmentSamples few(samples.samples_sensor, samples.normalOfRays_sensor,
-                               kAskedSamples);
-    if (few.size() == 0) return 0.0;
-    std::vector<Eigen::Vector3d> points_map;
-    for (const Eigen::Vector3d& m : few.mean)
-        points_map.push_back(T_map_sensor.R * m + T_map_sensor.t);
-    std::vector<Occupancy> answers(points_map.size());
-    map().occupancy(points_map.data(), points_map.size(), answers.data());
-    std::size_t inFree = 0;
-    for (const Occupancy& answer : answers)
-        if (answer.free > kSurelyFree) ++inFree;
-    return double(inFree) / double(few.size());
+    PoseHypothesis best = alignment.near(prior, off);
+    const auto doubtful = [&] {
+        return best.overlap < std::max(kLittle, kFallen * overlap) ||
+               best.contradicted > kDoubtful * best.overlap;
+    };
+    const auto consider = [&](const std::optional<PoseHypothesis>& other) {
+        if (other && other->score() > best.score() + kBetterBy) best = *other;
+    };
+    if (doubtful()) consider(alignment.farther(prior));
+    if (doubtful() && !given) consider(alignment.farAround(prior));
+    return best;
 }
 
 void ScanTracker::Impl::renewTarget() {
@@ -241,17 +194,14 @@ TrackedPose ScanTracker::track(const Scan& scan, double time_s,
     TrackedPose now;
     static_cast<PoseEstimate&>(now) = prior;
     if (!t.map().empty()) {
-        const SurfaceAlignment found = t.align(prior);
+        const PoseHypothesis found = t.find(prior);
         now.overlap = found.overlap;
+        now.contradicted = found.contradicted;
         now.observable = found.observable;
-        const Pose T_map_sensor{found.T_target_sensor.R,
-                                found.T_target_sensor.t + t.map().origin()};
-        if (t.given) now.contradicted = t.shareInFreeSpace(T_map_sensor);
         now.lost = found.overlap < t.params.minOverlap ||
                    now.contradicted > kContradicted * found.overlap;
         if (!now.lost) {
-            now.T_map_sensor = T_map_sensor;
-            now.covariance = found.covariance;
+            static_cast<PoseEstimate&>(now) = found;
             t.deviation.learn(prior.T_map_sensor, now.T_map_sensor);
         }
     }

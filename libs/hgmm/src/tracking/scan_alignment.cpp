@@ -1,0 +1,152 @@
+#include "tracking/scan_alignment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "hgmm/registration.h"
+#include "tracking/motion.h"
+#include "tracking/place_candidates.h"
+
+namespace hgmm {
+
+namespace {
+
+/// Registration looks so far about the prior [m], [rad].
+constexpr double kSearch_m = 0.7, kSearch_rad = 0.4;
+/// What it finds may be off by this much [m], [rad].
+constexpr SearchRadius kFound{0.1, 0.02};
+/// Samples that are asked whether they lie in space that is known to be free.
+constexpr std::size_t kAskedSamples = 200;
+/// P(free) of such space.
+constexpr float kSurelyFree = 0.8F;
+
+/// Places are looked at as far as this share of the samples' distance from the sensor, and
+/// no nearer and no farther than this [m].
+constexpr double kFarPerRange = 0.5, kLeastFar_m = 1.0, kMostFar_m = 10.0;
+/// So many places on each side of the prior.
+constexpr int kPlacesEachWay = 6;
+/// The likeliest are aligned, with so many samples.
+constexpr std::size_t kAlignedPlaces = 16, kFarSamples = 500;
+/// Samples that rate a place.
+constexpr std::size_t kRatingSamples = 150;
+/// The best place must be better than any other one by this much, must explain so much, and
+/// call no more than so much of that free [1].
+constexpr double kLead = 0.05, kExplained = 0.25, kMostContradicted = 0.3;
+
+/// A disc about the origin, at even steps.
+std::vector<Eigen::Vector3d> placesAbout(const Eigen::Vector3d& centre, double far_m) {
+    std::vector<Eigen::Vector3d> places;
+    for (int x = -kPlacesEachWay; x <= kPlacesEachWay; ++x)
+        for (int y = -kPlacesEachWay; y <= kPlacesEachWay; ++y)
+            if (x * x + y * y <= kPlacesEachWay * kPlacesEachWay)
+                places.push_back(centre +
+                                 far_m / kPlacesEachWay * Eigen::Vector3d(x, y, 0.0));
+    return places;
+}
+
+}  // namespace
+
+ScanAlignment::ScanAlignment(const Map& map, const PatchTree<3>& surfaces,
+                             const ScanSamples& scan, std::size_t most)
+    : map_(map),
+      surfaces_(surfaces),
+      scan_(scan),
+      samples_(scan.samples_sensor, scan.normalOfRays_sensor, most),
+      asked_(scan.samples_sensor, scan.normalOfRays_sensor, kAskedSamples) {}
+
+PoseHypothesis ScanAlignment::near(const PoseEstimate& prior,
+                                   const SearchRadius& off) const {
+    return aligned(prior, off, samples_);
+}
+
+PoseHypothesis ScanAlignment::aligned(const PoseEstimate& prior, const SearchRadius& off,
+                                      const AlignmentSamples& samples) const {
+    AlignmentPrior about;
+    about.T_target_sensor = {prior.T_map_sensor.R, prior.T_map_sensor.t - map_.origin()};
+    about.covariance = prior.covariance;
+    about.deviation = off;
+    const SurfaceAlignment found = alignToSurfaces(surfaces_, samples, about);
+    PoseHypothesis hypothesis;
+    hypothesis.T_map_sensor = {orthonormal(found.T_target_sensor.R),
+                               found.T_target_sensor.t + map_.origin()};
+    hypothesis.covariance = found.covariance;
+    hypothesis.overlap = found.overlap;
+    hypothesis.observable = found.observable;
+    hypothesis.contradicted = shareInFreeSpace(hypothesis.T_map_sensor);
+    return hypothesis;
+}
+
+double ScanAlignment::shareInFreeSpace(const Pose& T_map_sensor) const {
+    if (asked_.size() == 0) return 0.0;
+    std::vector<Eigen::Vector3d> points_map;
+    for (const Eigen::Vector3d& m : asked_.mean)
+        points_map.push_back(T_map_sensor.R * m + T_map_sensor.t);
+    std::vector<Occupancy> answers(points_map.size());
+    map_.occupancy(points_map.data(), points_map.size(), answers.data());
+    const auto inFree = std::count_if(answers.begin(), answers.end(), [](const auto& a) {
+        return a.free > kSurelyFree;
+    });
+    return double(inFree) / double(asked_.size());
+}
+
+std::optional<PoseHypothesis> ScanAlignment::farther(const PoseEstimate& prior) const {
+    RegistrationParams search;
+    search.coarseWidth_m = kSearch_m;
+    search.coarseAngle_rad = kSearch_rad;
+    std::vector<const Mixture<3>*> levels;
+    for (std::size_t level = map_.levelCount(); level > 0; --level)
+        levels.push_back(&map_.mixture(level - 1));
+    const Registration coarse = registerMixtures(
+        levels, scan_.samples_sensor,
+        {prior.T_map_sensor.R, prior.T_map_sensor.t - map_.origin()}, search);
+    if (!coarse.converged) return {};
+    PoseEstimate start;
+    start.T_map_sensor = {orthonormal(coarse.T_target_source.R),
+                          coarse.T_target_source.t + map_.origin()};
+    start.covariance =
+        Matrix6d(prior.covariance) + covarianceOf({kSearch_m, kSearch_rad});
+    return near(start, kFound);
+}
+
+std::optional<PoseHypothesis> ScanAlignment::farAround(const PoseEstimate& prior) const {
+    const double far_m =
+        std::clamp(kFarPerRange * samples_.gyrationRadius_m, kLeastFar_m, kMostFar_m);
+    const double apart_m = far_m / kPlacesEachWay;
+    PlaceSearch search;
+    search.kernelWidth_m = 0.7 * apart_m;
+    search.mostKept = kAlignedPlaces;
+    search.samples = kRatingSamples;
+    search.R_local = prior.T_map_sensor.R;
+    const std::vector<PlaceCandidate> places = likeliestPlaces(
+        map_, scan_, placesAbout(prior.T_map_sensor.t - map_.origin(), far_m), search);
+    const SearchRadius off{apart_m, 2.0 * M_PI / search.headings};
+    const AlignmentSamples few(scan_.samples_sensor, scan_.normalOfRays_sensor,
+                               kFarSamples);
+    std::vector<PoseHypothesis> found(places.size());
+#pragma omp parallel for schedule(dynamic)
+    for (std::int64_t k = 0; k < static_cast<std::int64_t>(places.size()); ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        PoseEstimate start;
+        start.T_map_sensor = {places[i].T_local_sensor.R,
+                              places[i].T_local_sensor.t + map_.origin()};
+        start.covariance = covarianceOf(off);
+        found[i] = aligned(start, off, few);
+    }
+    const auto best = std::max_element(
+        found.begin(), found.end(),
+        [](const auto& a, const auto& b) { return a.score() < b.score(); });
+    if (best == found.end() || best->score() < kExplained ||
+        best->contradicted > kMostContradicted * best->overlap)
+        return {};
+    for (const PoseHypothesis& other : found)
+        if (!areOnePlace(other.T_map_sensor, best->T_map_sensor) &&
+            other.score() > best->score() - kLead)
+            return {};
+    PoseEstimate start;
+    start.T_map_sensor = best->T_map_sensor;
+    start.covariance = Matrix6d(prior.covariance) + covarianceOf({far_m, M_PI});
+    return near(start, kFound);
+}
+
+}  // namespace hgmm
