@@ -19,9 +19,9 @@ struct PlaceCandidate {
 struct PlaceSearch {
     /// About as far as candidates are apart [m]: width of the likelihood's kernel.
     double kernelWidth_m = 0.5;
-    int headings = 24;            ///< of each position [count]
-    std::size_t mostKept = 40;    ///< best candidates [count]
-    std::size_t samples = 80;     ///< that rate a candidate [count]
+    int headings = 24;          ///< of each position [count]
+    std::size_t mostKept = 40;  ///< best candidates [count]
+    std::size_t samples = 80;   ///< that rate a candidate [count]
     Eigen::Matrix3d R_local = Eigen::Matrix3d::Identity();  ///< heading 0
 };
 

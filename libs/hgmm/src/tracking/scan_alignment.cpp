@@ -84,9 +84,8 @@ double ScanAlignment::shareInFreeSpace(const Pose& T_map_sensor) const {
         points_map.push_back(T_map_sensor.R * m + T_map_sensor.t);
     std::vector<Occupancy> answers(points_map.size());
     map_.occupancy(points_map.data(), points_map.size(), answers.data());
-    const auto inFree = std::count_if(answers.begin(), answers.end(), [](const auto& a) {
-        return a.free > kSurelyFree;
-    });
+    const auto inFree = std::count_if(answers.begin(), answers.end(),
+                                      [](const auto& a) { return a.free > kSurelyFree; });
     return double(inFree) / double(asked_.size());
 }
 
@@ -104,8 +103,7 @@ std::optional<PoseHypothesis> ScanAlignment::farther(const PoseEstimate& prior) 
     PoseEstimate start;
     start.T_map_sensor = {orthonormal(coarse.T_target_source.R),
                           coarse.T_target_source.t + map_.origin()};
-    start.covariance =
-        Matrix6d(prior.covariance) + covarianceOf({kSearch_m, kSearch_rad});
+    start.covariance = Matrix6d(prior.covariance) + covarianceOf({kSearch_m, kSearch_rad});
     return near(start, kFound);
 }
 

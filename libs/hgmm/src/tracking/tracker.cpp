@@ -23,6 +23,8 @@ constexpr double kLittle = 0.45, kFallen = 0.75;
 constexpr double kContradicted = 0.7;
 /// So many times as much is doubtful [1].
 constexpr double kDoubtful = 0.3;
+/// So is a pose that is so many deviations from the prior.
+constexpr double kSurprising = 3.0;
 /// Another pose is taken if it explains so much more of the scan [1].
 constexpr double kBetterBy = 0.05;
 /// A motion is not guessed to go on for longer than this [s].
@@ -35,6 +37,11 @@ constexpr int kAnewAfter = 5;
 SearchRadius deviationOf(const Matrix6d& covariance) {
     return {std::sqrt(covariance.bottomRightCorner<3, 3>().trace()),
             std::sqrt(covariance.topLeftCorner<3, 3>().trace())};
+}
+
+bool isFarFrom(const Pose& a, const Pose& b, const SearchRadius& most) {
+    return (a.t - b.t).norm() > most.width_m ||
+           rotationVector(a.R.transpose() * b.R).norm() > most.angle_rad;
 }
 
 void requireCovariance(const Registration::Covariance& covariance, const char* what) {
@@ -138,7 +145,9 @@ PoseHypothesis ScanTracker::Impl::find(const PoseEstimate& prior) const {
     PoseHypothesis best = alignment.near(prior, off);
     const auto doubtful = [&] {
         return best.overlap < std::max(kLittle, kFallen * overlap) ||
-               best.contradicted > kDoubtful * best.overlap;
+               best.contradicted > kDoubtful * best.overlap ||
+               isFarFrom(prior.T_map_sensor, best.T_map_sensor,
+                         {kSurprising * off.width_m, kSurprising * off.angle_rad});
     };
     const auto consider = [&](const std::optional<PoseHypothesis>& other) {
         if (other && other->score() > best.score() + kBetterBy) best = *other;
