@@ -46,6 +46,10 @@ void printSummary(const SlamRun& run) {
     if (run.scansLost > 0)
         std::printf("warning: %zu scans were not recognised; their poses are guesses\n",
                     run.scansLost);
+    if (run.slam->parts() > 1)
+        std::printf(
+            "warning: the map has %zu parts, and how they lie to each other is a guess\n",
+            run.slam->parts());
 }
 
 ExitCode run(Options& options) {

@@ -50,7 +50,10 @@ class Follower {
         time_s_ = std::max(time_s_, recorded.time_s);
         const slam::UncertainPose step = odometry_->step(scan, time_s_, motion);
         lost_ += odometry_->lost() ? 1 : 0;
-        slam_->add(odometry_->lastSamples(), T_robot_sensor_, step);
+        if (odometry_->held())
+            slam_->add(odometry_->lastSamples(), T_robot_sensor_, step);
+        else
+            slam_->addLost(step);
         stamps_.push_back(recorded.time_s);
     }
 

@@ -48,9 +48,10 @@ std::vector<Candidate> candidatesFor(
     const std::vector<UncertainPose> T_newest_other = poseOfAll(graph, newest);
     const FinishedSubmap& source = *submaps[newest];
     std::vector<Candidate> all;
-    for (std::size_t j = 0; j + 1 < newest; ++j) {
+    for (std::size_t j = 0; j < newest; ++j) {
         const FinishedSubmap& target = *submaps[j];
         Candidate candidate{j, T_newest_other[j].inverse(), 0.0};
+        if (j + 1 == newest && !isGuess(candidate.T_target_source)) continue;
         if (!withinReach(target.shape, source.shape, candidate.T_target_source)) continue;
         const double overlap = expectedOverlap(
             target.submap.map, source.shape.surfaces_submap, candidate.T_target_source);

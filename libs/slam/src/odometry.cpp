@@ -53,9 +53,9 @@ UncertainPose Odometry::step(const Scan& scan, double time_s,
             T_sensor_robot * *T_previous_robot * T_robot_sensor;
         increment = {T_last_now.T_a_b, T_last_now.covariance};
     }
-    const TrackedPose now = tracker_.track(scan, time_s, increment);
-    const TrackedPose before = started_ ? last_ : now;
-    last_ = now;
+    last_ = tracker_.track(scan, time_s, increment);
+    const PoseEstimate now = last_, before = started_ ? held_ : now;
+    if (held() || !started_) held_ = now;
     started_ = true;
     const UncertainPose T_before_now{before.T_map_sensor.inverse() * now.T_map_sensor,
                                      rotated(growth(before.covariance, now.covariance),

@@ -2,8 +2,10 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -36,7 +38,29 @@ Eigen::Matrix<double, 6, 6> g2oInformation(const UncertainPose& edge) {
     return fromG2o.transpose() * covariance.ldlt().solve(fromG2o);
 }
 
+constexpr double kGuess_m = 0.5, kGuess_rad = 0.2;
+
 }  // namespace
+
+bool isGuess(const UncertainPose& pose) {
+    const Matrix6d& covariance = pose.covariance;
+    return covariance.bottomRightCorner<3, 3>().diagonal().maxCoeff() >
+               kGuess_m * kGuess_m ||
+           covariance.topLeftCorner<3, 3>().diagonal().maxCoeff() > kGuess_rad * kGuess_rad;
+}
+
+std::size_t partsOf(const PoseGraph& graph) {
+    const std::size_t n = graph.T_world_node.size();
+    std::vector<std::size_t> part(n);
+    std::iota(part.begin(), part.end(), std::size_t{0});
+    for (const PoseEdge& edge : graph.edges) {
+        if (isGuess(edge.T_from_to)) continue;
+        const std::size_t kept = part[edge.from], joined = part[edge.to];
+        std::replace(part.begin(), part.end(), joined, kept);
+    }
+    std::sort(part.begin(), part.end());
+    return static_cast<std::size_t>(std::unique(part.begin(), part.end()) - part.begin());
+}
 
 std::vector<UncertainPose> poseOfAll(const PoseGraph& graph, std::size_t from) {
     const std::size_t n = graph.T_world_node.size();

@@ -92,6 +92,14 @@ struct SubmapSlam::Impl {
         graph.T_world_node.push_back({Eigen::Matrix3d::Identity(), T_world_robot.t});
     }
 
+    void require(const UncertainPose& T_previous_robot) const {
+        requireRigid(T_previous_robot.T_a_b, "T_previous_robot");
+        if (!T_previous_robot.covariance.allFinite())
+            throw std::invalid_argument("T_previous_robot: the covariance is not finite");
+        if (isFinished())
+            throw std::logic_error("SubmapSlam: was given a scan after finish");
+    }
+
     bool isComplete() const {
         const SubmapParams& p = params.submap;
         const double length_m =
@@ -171,10 +179,7 @@ void SubmapSlam::add(const ScanSamples& scan, const Pose& T_robot_sensor,
                      const UncertainPose& T_previous_robot) {
     Impl& s = *impl_;
     requireRigid(T_robot_sensor, "T_robot_sensor");
-    requireRigid(T_previous_robot.T_a_b, "T_previous_robot");
-    if (!T_previous_robot.covariance.allFinite())
-        throw std::invalid_argument("T_previous_robot: the covariance is not finite");
-    if (s.isFinished()) throw std::logic_error("SubmapSlam::add: was called after finish");
+    s.require(T_previous_robot);
     const double range_m = medianRange(scan.samples_sensor);
     if (!s.started) {
         s.begin({});
@@ -183,10 +188,22 @@ void SubmapSlam::add(const ScanSamples& scan, const Pose& T_robot_sensor,
     } else {
         s.move(withDrift(T_previous_robot, s.params.drift));
         s.range_m += 0.1 * (range_m - s.range_m);
-        if (s.isComplete()) s.next();
+        if (s.isComplete() || isGuess(s.T_submap_robot)) s.next();
     }
     s.current.map.insert(scan, s.T_submap_robot.T_a_b * T_robot_sensor);
     s.current.T_submap_robot.push_back(s.T_submap_robot.T_a_b);
+}
+
+void SubmapSlam::addLost(const UncertainPose& T_previous_robot) {
+    Impl& s = *impl_;
+    s.require(T_previous_robot);
+    if (!s.started) {
+        s.begin({});
+        s.started = true;
+    }
+    Pose T_submap_robot = s.T_submap_robot.T_a_b * T_previous_robot.T_a_b;
+    T_submap_robot.R = orthonormal(T_submap_robot.R);
+    s.current.T_submap_robot.push_back(T_submap_robot);
 }
 
 void SubmapSlam::finish() {
@@ -215,6 +232,10 @@ std::size_t SubmapSlam::closures() const {
 }
 std::size_t SubmapSlam::submaps() const {
     return impl_->graph.T_world_node.size();
+}
+
+std::size_t SubmapSlam::parts() const {
+    return partsOf(impl_->graph);
 }
 
 Map SubmapSlam::fusedMap() const {

@@ -15,6 +15,8 @@ namespace hgmm {
 
 namespace {
 
+/// Alignment begins with no wider kernel [m], [rad]: surfaces that are farther are others.
+constexpr SearchRadius kNearest{1.5, 0.5};
 /// With less of a scan found, or less than this share of what was found of the last one,
 /// mixtures are registered, in case the sensor is elsewhere [1].
 constexpr double kLittle = 0.45, kFallen = 0.75;
@@ -37,6 +39,10 @@ constexpr int kAnewAfter = 5;
 SearchRadius deviationOf(const Matrix6d& covariance) {
     return {std::sqrt(covariance.bottomRightCorner<3, 3>().trace()),
             std::sqrt(covariance.topLeftCorner<3, 3>().trace())};
+}
+
+SearchRadius narrower(const SearchRadius& a, const SearchRadius& b) {
+    return {std::min(a.width_m, b.width_m), std::min(a.angle_rad, b.angle_rad)};
 }
 
 bool isFarFrom(const Pose& a, const Pose& b, const SearchRadius& most) {
@@ -86,6 +92,9 @@ struct ScanTracker::Impl {
                  const std::optional<MotionIncrement>& odometry,
                  const std::vector<float>& pointTimes_s) const;
     double sinceLast(double time_s) const;
+    /// How far the sensor may be from where it is guessed to be, for want of a velocity or
+    /// after a gap.
+    SearchRadius unknownSince(double time_s) const;
     PoseEstimate predict(double time_s,
                          const std::optional<MotionIncrement>& odometry) const;
     const Map& map() const { return given ? *given : *local.map(); }
@@ -132,17 +141,25 @@ PoseEstimate ScanTracker::Impl::predict(
     if (!time_s) return pose;
     if (odometry) return compose(pose, *odometry);
     MotionIncrement motion;
+    SearchRadius off = wider(deviation.now(), unknownSince(time));
     if (velocity)
         motion.T_last_now = velocity->after(std::min(sinceLast(time), kLongestGuess_s));
-    motion.covariance = covarianceOf(deviation.now());
+    motion.covariance = covarianceOf(off);
     return compose(pose, motion);
+}
+
+SearchRadius ScanTracker::Impl::unknownSince(double time) const {
+    if (!velocity) return {params.firstDeviation_m, params.firstDeviation_rad};
+    const double notGuessed_s = std::max(0.0, sinceLast(time) - kLongestGuess_s);
+    return {notGuessed_s * velocity->linear.norm(),
+            notGuessed_s * velocity->angular.norm()};
 }
 
 PoseHypothesis ScanTracker::Impl::find(const PoseEstimate& prior) const {
     const ScanAlignment alignment(map(), *target, samples,
                                   static_cast<std::size_t>(params.maxSamples));
     const SearchRadius off = wider(deviation.now(), deviationOf(prior.covariance));
-    PoseHypothesis best = alignment.near(prior, off);
+    PoseHypothesis best = alignment.near(prior, narrower(off, kNearest));
     const auto doubtful = [&] {
         return best.overlap < std::max(kLittle, kFallen * overlap) ||
                best.contradicted > kDoubtful * best.overlap ||

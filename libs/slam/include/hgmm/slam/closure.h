@@ -60,7 +60,7 @@ struct FinishedSubmap {
 /// The submaps that `newest` is compared with: those that it may overlap, given how
 /// uncertain the graph is about them, in the order of how much of it they would show and
 /// how alike they look. Of neighbours in time, only the best. Not the submap before it,
-/// which odometry knows.
+/// if odometry knows how they lie.
 std::vector<Candidate> candidatesFor(
     const std::vector<std::shared_ptr<const FinishedSubmap>>& submaps,
     const PoseGraph& graph, std::size_t newest, const ClosureParams& params);

@@ -12,22 +12,28 @@ class Odometry {
     /// @param T_robot_sensor where the sensor is on the robot
     Odometry(const MapParams& map, const Pose& T_robot_sensor);
 
-    /// How the robot moved since the last scan; the identity for the first one.
+    /// Takes the next scan.
     /// @param scan its T_map_sensor is not used
     /// @param time_s as of ScanTracker::track
-    /// @param T_previous_robot the same by other means, such as wheels
+    /// @param T_previous_robot how the robot moved since the last scan by other means, such
+    /// as wheels
+    /// @return how it moved since the last scan that is held; the identity for the first
     UncertainPose step(const Scan& scan, double time_s,
                        const std::optional<UncertainPose>& T_previous_robot);
 
     /// Of the last scan.
     const ScanSamples& lastSamples() const { return tracker_.lastSamples(); }
-    /// Whether the last scan said nothing of the motion.
+    /// Whether the last scan said nothing of the motion, which is a guess then.
     bool lost() const { return last_.lost; }
+    /// Whether further scans are compared with the last one, or with what was before: it is
+    /// not lost, or odometry begins anew with it.
+    bool held() const { return !last_.lost || last_.inserted; }
 
  private:
     Pose T_robot_sensor_;
     ScanTracker tracker_;
-    TrackedPose last_;  // in the map of the tracker
+    TrackedPose last_;   // in the map of the tracker
+    PoseEstimate held_;  // of the last scan that is held
     bool started_ = false;
 };
 

@@ -19,6 +19,10 @@ struct PoseEdge {
     Kind kind = Kind::odometry;
 };
 
+/// Whether a pose is so uncertain that it joins nothing: by more than half a metre, or 12
+/// deg, one standard deviation.
+bool isGuess(const UncertainPose& pose);
+
 /// Poses of submaps and what was measured between them. Node 0 is where it was put.
 struct PoseGraph {
     std::vector<Pose> T_world_node;
@@ -54,6 +58,9 @@ Optimisation optimise(PoseGraph& graph, std::size_t firstNewEdge = 0,
 /// that needs no inverse of the whole graph (the least uncertain path: Dijkstra over the
 /// growth of the covariance). The poses are those of the nodes.
 std::vector<UncertainPose> poseOfAll(const PoseGraph& graph, std::size_t from);
+
+/// Groups of nodes that edges hold together which are no guesses [count].
+std::size_t partsOf(const PoseGraph& graph);
 
 /// The graph in the text format of g2o: VERTEX_SE3:QUAT, FIX and EDGE_SE3:QUAT, with the
 /// information of (t, q) in the measured frame of the second node.

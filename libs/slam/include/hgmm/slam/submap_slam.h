@@ -48,13 +48,20 @@ class SubmapSlam {
     /// Inserts one more scan.
     /// @param scan samplesOf(scan, params of the map), which odometry may share
     /// @param T_robot_sensor where the sensor is on the robot
-    /// @param T_previous_robot how the robot moved since the scan before, as odometry has
-    /// it; of no meaning for the first one
+    /// @param T_previous_robot how the robot moved since the last scan that was inserted,
+    /// as odometry has it; of no meaning for the first one. Where it is a mere guess
+    /// (isGuess), a submap begins.
     /// Throws std::invalid_argument for a pose that is not finite or not rigid,
     /// a covariance that is not finite, and
     /// std::logic_error after finish().
     void add(const ScanSamples& scan, const Pose& T_robot_sensor,
              const UncertainPose& T_previous_robot);
+
+    /// Notes where the robot was at a scan of which nothing is recognised; the scan is not
+    /// inserted.
+    /// @param T_previous_robot how the robot may have moved since the last scan that was
+    /// Throws as add does.
+    void addLost(const UncertainPose& T_previous_robot);
 
     /// Waits for closures, and closes the submap at hand: what is asked below is final.
     void finish();
@@ -68,6 +75,8 @@ class SubmapSlam {
     /// Closures that are in the graph.
     std::size_t closures() const;
     std::size_t submaps() const;
+    /// Groups of submaps that only guesses hold together: 1 if the map is one [count].
+    std::size_t parts() const;
     /// All submaps merged as they lie now (Map::merge).
     Map fusedMap() const;
 
