@@ -12,6 +12,8 @@ namespace {
 constexpr SearchRadius kLeast{0.05, 0.01};
 /// It forgets what is longer ago than about so many scans.
 constexpr int kMemory = 30;
+/// Variance of motions out of the plane of a planar laser [m^2], [rad^2]: of rounding.
+constexpr double kOutOfPlane2 = 1e-10;
 /// Until so many scans have taught it, the first deviation counts as well.
 constexpr int kFewScans = 3;
 
@@ -32,6 +34,16 @@ Velocity Velocity::of(const Pose& T_before_after, double duration_s) {
 
 Pose Velocity::after(double duration_s) const {
     return {rotationOf(duration_s * angular), duration_s * linear};
+}
+
+Registration::Covariance inPlaneOfRays(const Registration::Covariance& covariance,
+                                       const Eigen::Vector3d& normalOfRays) {
+    if (normalOfRays.isZero()) return covariance;
+    Matrix6d inPlane = Matrix6d::Zero();
+    inPlane.topLeftCorner<3, 3>() = normalOfRays * normalOfRays.transpose();
+    inPlane.bottomRightCorner<3, 3>() =
+        Eigen::Matrix3d::Identity() - normalOfRays * normalOfRays.transpose();
+    return inPlane * Matrix6d(covariance) * inPlane + kOutOfPlane2 * Matrix6d::Identity();
 }
 
 PoseEstimate compose(const PoseEstimate& last, const MotionIncrement& motion) {

@@ -26,6 +26,11 @@ Eigen::Vector3d rotationVector(const Eigen::Matrix3d& R);
 /// The nearest rotation to a product of many.
 Eigen::Matrix3d orthonormal(const Eigen::Matrix3d& R);
 
+/// Of a motion in the plane that holds all rays of a planar laser: others have hardly any
+/// error. As it is where the normal is zero.
+Registration::Covariance inPlaneOfRays(const Registration::Covariance& covariance,
+                                       const Eigen::Vector3d& normalOfRays);
+
 /// A pose moved on: errors of both add up.
 PoseEstimate compose(const PoseEstimate& last, const MotionIncrement& motion);
 

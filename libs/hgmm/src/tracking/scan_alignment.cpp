@@ -55,6 +55,11 @@ ScanAlignment::ScanAlignment(const Map& map, const PatchTree<3>& surfaces,
       samples_(scan.samples_sensor, scan.normalOfRays_sensor, most),
       asked_(scan.samples_sensor, scan.normalOfRays_sensor, kAskedSamples) {}
 
+Registration::Covariance ScanAlignment::widened(const Registration::Covariance& covariance,
+                                                const SearchRadius& by) const {
+    return covariance + inPlaneOfRays(covarianceOf(by), scan_.normalOfRays_sensor);
+}
+
 PoseHypothesis ScanAlignment::near(const PoseEstimate& prior,
                                    const SearchRadius& off) const {
     return aligned(prior, off, samples_);
@@ -100,11 +105,10 @@ std::optional<PoseHypothesis> ScanAlignment::farther(const PoseEstimate& prior) 
         levels, scan_.samples_sensor,
         {prior.T_map_sensor.R, prior.T_map_sensor.t - map_.origin()}, search);
     if (!coarse.converged) return {};
-    PoseEstimate start;
-    start.T_map_sensor = {orthonormal(coarse.T_target_source.R),
-                          coarse.T_target_source.t + map_.origin()};
-    start.covariance = Matrix6d(prior.covariance) + covarianceOf({kSearch_m, kSearch_rad});
-    return near(start, kFound);
+    const Pose T_map_sensor{orthonormal(coarse.T_target_source.R),
+                            coarse.T_target_source.t + map_.origin()};
+    return near({T_map_sensor, widened(prior.covariance, {kSearch_m, kSearch_rad})},
+                kFound);
 }
 
 std::optional<PoseHypothesis> ScanAlignment::farAround(const PoseEstimate& prior) const {
@@ -125,11 +129,9 @@ std::optional<PoseHypothesis> ScanAlignment::farAround(const PoseEstimate& prior
 #pragma omp parallel for schedule(dynamic)
     for (std::int64_t k = 0; k < static_cast<std::int64_t>(places.size()); ++k) {
         const auto i = static_cast<std::size_t>(k);
-        PoseEstimate start;
-        start.T_map_sensor = {places[i].T_local_sensor.R,
-                              places[i].T_local_sensor.t + map_.origin()};
-        start.covariance = covarianceOf(off);
-        found[i] = aligned(start, off, few);
+        const Pose T_map_sensor{places[i].T_local_sensor.R,
+                                places[i].T_local_sensor.t + map_.origin()};
+        found[i] = aligned({T_map_sensor, covarianceOf(off)}, off, few);
     }
     const auto best = std::max_element(
         found.begin(), found.end(),
@@ -141,10 +143,7 @@ std::optional<PoseHypothesis> ScanAlignment::farAround(const PoseEstimate& prior
         if (!areOnePlace(other.T_map_sensor, best->T_map_sensor) &&
             other.score() > best->score() - kLead)
             return {};
-    PoseEstimate start;
-    start.T_map_sensor = best->T_map_sensor;
-    start.covariance = Matrix6d(prior.covariance) + covarianceOf({far_m, M_PI});
-    return near(start, kFound);
+    return near({best->T_map_sensor, widened(prior.covariance, {far_m, M_PI})}, kFound);
 }
 
 }  // namespace hgmm

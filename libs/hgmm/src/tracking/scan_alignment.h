@@ -41,6 +41,9 @@ class ScanAlignment {
  private:
     PoseHypothesis aligned(const PoseEstimate& prior, const SearchRadius& off,
                            const AlignmentSamples& samples) const;
+    /// Of a prior that may be off by more.
+    Registration::Covariance widened(const Registration::Covariance& covariance,
+                                     const SearchRadius& by) const;
     double shareInFreeSpace(const Pose& T_map_sensor) const;
 
     const Map& map_;

@@ -139,12 +139,15 @@ double ScanTracker::Impl::sinceLast(double time) const {
 PoseEstimate ScanTracker::Impl::predict(
     double time, const std::optional<MotionIncrement>& odometry) const {
     if (!time_s) return pose;
-    if (odometry) return compose(pose, *odometry);
     MotionIncrement motion;
-    SearchRadius off = wider(deviation.now(), unknownSince(time));
-    if (velocity)
-        motion.T_last_now = velocity->after(std::min(sinceLast(time), kLongestGuess_s));
-    motion.covariance = covarianceOf(off);
+    if (odometry) {
+        motion = *odometry;
+    } else {
+        if (velocity)
+            motion.T_last_now = velocity->after(std::min(sinceLast(time), kLongestGuess_s));
+        motion.covariance = covarianceOf(wider(deviation.now(), unknownSince(time)));
+    }
+    motion.covariance = inPlaneOfRays(motion.covariance, samples.normalOfRays_sensor);
     return compose(pose, motion);
 }
 
@@ -209,13 +212,13 @@ TrackedPose ScanTracker::track(const Scan& scan, double time_s,
     Impl& t = *impl_;
     t.require(scan, time_s, odometry, pointTimes_s);
     const double duration_s = t.sinceLast(time_s);
-    const PoseEstimate prior = t.predict(time_s, odometry);
     Velocity velocity = t.velocity.value_or(Velocity());
     if (odometry && duration_s > 0.0)
         velocity = Velocity::of(odometry->T_last_now, duration_s);
     t.samples = samplesOf(
         pointTimes_s.empty() ? scan : motionTakenOut(scan, pointTimes_s, velocity),
         t.map().params());
+    const PoseEstimate prior = t.predict(time_s, odometry);
 
     TrackedPose now;
     static_cast<PoseEstimate&>(now) = prior;
