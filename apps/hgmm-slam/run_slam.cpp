@@ -2,11 +2,13 @@
 
 #include <hgmm/mrpt_bridge/observation_to_scan.h>
 #include <hgmm/slam/odometry.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <future>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -22,7 +24,8 @@ using evaluation::RecordedScan;
 using evaluation::Recording;
 using Clock = std::chrono::steady_clock;
 
-/// Scans of one recording on their way through odometry into the map.
+/// Scans of one recording on their way through odometry into the map. Where there are
+/// threads, a scan enters the map on one of its own while the next is followed.
 class Follower {
  public:
     Follower(const MapParams& map, const mrpt_bridge::ReadingParams& reading,
@@ -30,7 +33,11 @@ class Follower {
         : map_(map),
           reading_(reading),
           posesAreOdometry_(posesAreOdometry),
-          slam_(std::make_unique<slam::SubmapSlam>(map)) {}
+          slam_(std::make_unique<slam::SubmapSlam>(map)),
+          threads_(omp_get_max_threads()),
+          launch_(threads_ > 1 ? std::launch::async : std::launch::deferred) {
+        omp_set_num_threads(std::max(1, threads_ - 1));
+    }
 
     void follow(const RecordedScan& recorded) {
         // Of an observation that holds nothing, only the time is known.
@@ -50,22 +57,29 @@ class Follower {
         time_s_ = std::max(time_s_, recorded.time_s);
         const slam::UncertainPose step = odometry_->step(scan, time_s_, motion);
         lost_ += odometry_->lost() ? 1 : 0;
-        if (odometry_->held())
-            slam_->add(odometry_->lastSamples(), T_robot_sensor_, step);
-        else
-            slam_->addLost(step);
         stamps_.push_back(recorded.time_s);
+        waitForInsertion();
+        insertion_ = std::async(launch_, [this, step, samples = odometry_->lastSamples(),
+                                          held = odometry_->held()] {
+            if (launch_ == std::launch::async) omp_set_num_threads(1);
+            if (held)
+                slam_->add(samples, T_robot_sensor_, step);
+            else
+                slam_->addLost(step);
+        });
     }
 
     std::string news() const {
         char text[96];
-        std::snprintf(text, sizeof text, ", %zu submaps, %zu loops%s", slam_->submaps(),
-                      slam_->closures(), odometry_->lost() ? ", lost" : "");
+        std::snprintf(text, sizeof text, ", %zu submaps, %zu loops%s", submaps_, closures_,
+                      odometry_->lost() ? ", lost" : "");
         return text;
     }
 
     SlamRun finish() && {
+        waitForInsertion();
         slam_->finish();
+        omp_set_num_threads(threads_);
         SlamRun run;
         const std::vector<Pose> poses = slam_->trajectory();
         for (std::size_t i = 0; i < poses.size(); ++i)
@@ -76,6 +90,13 @@ class Follower {
     }
 
  private:
+    void waitForInsertion() {
+        if (!insertion_.valid()) return;
+        insertion_.get();
+        submaps_ = slam_->submaps();
+        closures_ = slam_->closures();
+    }
+
     MapParams map_;
     mrpt_bridge::ReadingParams reading_;
     bool posesAreOdometry_;
@@ -85,6 +106,10 @@ class Follower {
     double time_s_ = 0.0;  // of the last scan, never going back
     std::vector<double> stamps_;
     std::size_t lost_ = 0;
+    std::size_t submaps_ = 0, closures_ = 0;  // before the insertion at hand
+    int threads_;
+    std::launch launch_;
+    std::future<void> insertion_;  // the last: it uses the members above
 };
 
 }  // namespace

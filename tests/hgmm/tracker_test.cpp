@@ -67,6 +67,26 @@ TEST(ScanTracker, FollowsAWalkWithoutPoses) {
     EXPECT_FALSE(tracker.map().empty());
 }
 
+/// As a robot that is driven from one place to the next and stops to scan.
+std::vector<Pose> wideSteps() {
+    return {poseAt(-2.5, -1.5, 1, 0.1), poseAt(-1.0, -1.6, 1, 0.3),
+            poseAt(0.4, -1.2, 1, 1.8),  poseAt(0.6, 0.3, 1, 3.1),
+            poseAt(-0.8, 0.8, 1, -1.7), poseAt(-0.9, -0.9, 1, 0.2),
+            poseAt(1.0, -0.6, 1, 0.9)};
+}
+
+TEST(ScanTracker, FollowsWideStepsAndLargeTurnsWithoutOdometry) {
+    const RoomScanner scanner = smallScanner();
+    const std::vector<Pose> truth = wideSteps();
+    ScanTracker tracker({}, {}, at(truth[0]));
+    for (std::size_t k = 0; k < truth.size(); ++k) {
+        const TrackedPose found = tracker.track(scanner.scan(truth[k], k), 2.0 * double(k));
+        ASSERT_FALSE(found.lost) << k;
+        EXPECT_LT(metresBetween(found.T_map_sensor, truth[k]), 0.03) << k;
+        EXPECT_LT(radiansBetween(found.T_map_sensor, truth[k]), 0.01) << k;
+    }
+}
+
 TEST(ScanTracker, FindsItselfInAGivenMapFromAWrongStart) {
     const RoomScanner scanner = smallScanner();
     const auto map = mapOfRoom(scanner);
@@ -237,6 +257,9 @@ TEST(ScanTracker, DoesNotDependOnThreads) {
         TrackedPose found;
         for (int k = 0; k < 5; ++k)
             found = tracker.track(scanner.scan(walk(k), k), k * kPeriod_s);
+        const Pose far = poseAt(0.4, 0.3, 1.0, 2.0);  // searched for
+        found = tracker.track(scanner.scan(far, 5), 5 * kPeriod_s);
+        EXPECT_LT(metresBetween(found.T_map_sensor, far), 0.05);
         return found;
     };
     const int before = omp_get_max_threads();

@@ -78,8 +78,8 @@ TEST(Closure, AppearanceDoesNotChangeWithYawButWithThePlace) {
     const Scene scene = ringCorridor();
     const FinishedSubmap a = submapOf(scene, posesAlong(-6, -1, -6, 0.0));
     const FinishedSubmap turned = submapOf(scene, posesAlong(-6, -1, -6, 2.0));
-    Mixture<3> rotated =
-        transformed(a.shape.surfaces_submap, {rotationOf({0, 0, 2.0}), {}});
+    Mixture<3> rotated = transformed(a.shape.surfaces_submap,
+                                     {rotationOf({0, 0, 2.0}), Eigen::Vector3d::Zero()});
     const Appearance same(rotated, Eigen::Vector3d::Zero());
     EXPECT_GT(a.shape.appearance.similarity(same), 0.995);
     Scene hall;

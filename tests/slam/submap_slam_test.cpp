@@ -109,12 +109,55 @@ TEST(SubmapSlam, ScansWithoutPointsHavePosesAllTheSame) {
     EXPECT_EQ(slam.closures(), 0U);
 }
 
+UncertainPose steps(int count) {
+    UncertainPose motion;
+    motion.T_a_b.t.x() = 0.25 * count;
+    return motion;
+}
+
+TEST(SubmapSlam, LostScansHavePosesAndLeaveTheMapAsItIs) {
+    const std::vector<Pose> truth = walkAround(0.25, 0.1);
+    const Scene scene = ringCorridor();
+    SubmapSlam with, without;
+    UncertainPose aside;
+    aside.T_a_b.t = {0.1, 0.2, 0};
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        const ScanSamples scan = samplesAt(scene, truth[i], i);
+        with.add(scan, {}, steps(1));
+        without.add(scan, {}, steps(1));
+        if (i == 7) with.addLost(aside);
+    }
+    with.finish();
+    without.finish();
+    const std::vector<Pose> poses = with.trajectory();
+    ASSERT_EQ(poses.size(), truth.size() + 1);
+    EXPECT_LT((poses[8].t - poses[7].t - aside.T_a_b.t).norm(), 1e-5);
+    EXPECT_LT((poses.back().t - without.trajectory().back().t).norm(), 1e-9);
+    EXPECT_EQ(with.fusedMap(), without.fusedMap());
+    EXPECT_EQ(with.parts(), 1U);
+}
+
+TEST(SubmapSlam, AGuessBeginsASubmapAndLeavesTwoParts) {
+    const std::vector<Pose> truth = walkAround(0.25, 0.1);
+    const Scene scene = ringCorridor();
+    SubmapSlam slam;
+    slam.add(samplesAt(scene, truth[0], 0), {}, {});
+    slam.add(samplesAt(scene, truth[1], 1), {}, steps(1));
+    EXPECT_EQ(slam.submaps(), 1U);
+    UncertainPose guess = steps(1);
+    guess.covariance.diagonal().setConstant(1.0);
+    slam.add(samplesAt(scene, truth[2], 2), {}, guess);
+    EXPECT_EQ(slam.submaps(), 2U);
+    EXPECT_EQ(slam.parts(), 2U);
+}
+
 TEST(SubmapSlam, RefusesScansAfterTheEnd) {
     SubmapSlam slam;
     slam.add({}, {}, {});
     slam.finish();
     slam.finish();
     EXPECT_THROW(slam.add({}, {}, {}), std::logic_error);
+    EXPECT_THROW(slam.addLost({}), std::logic_error);
     EXPECT_EQ(slam.trajectory().size(), 1U);
 }
 

@@ -49,11 +49,10 @@ struct MotionIncrement {
 /// Where the sensor is.
 struct TrackedPose : PoseEstimate {
     double overlap = 0.0;  ///< share of the scan's samples that lie on a surface, [0, 1]
-    /// Share of them in space that the map knows to be free, [0, 1]; localisation only.
-    double contradicted = 0.0;
-    int observable = 0;     ///< directions that the surfaces hold [count], 0 to 6
-    bool lost = false;      ///< the pose is the prior's: the scan says nothing of it
-    bool inserted = false;  ///< the scan is in the map; odometry only
+    double contradicted = 0.0;  ///< share of them in space known to be free, [0, 1]
+    int observable = 0;         ///< directions that the surfaces hold [count], 0 to 6
+    bool lost = false;          ///< the pose is the prior's: the scan says nothing of it
+    bool inserted = false;      ///< the scan is in the map; odometry only
 };
 
 /// Follows one sensor from scan to scan, by aligning each scan's samples with the surfaces
@@ -63,9 +62,12 @@ struct TrackedPose : PoseEstimate {
 /// constant velocity. How far the prior was off before decides how far the alignment looks
 /// (the adaptive threshold of KISS-ICP, Vizzo et al. 2023). Directions that the surfaces do
 /// not hold are left to the prior, whose covariance grows there. Planar lasers move in
-/// their plane only. Where little of a scan is found, mixtures are registered
-/// (RegistrationTarget), which looks farther; where that fails, too, the sensor is lost.
-/// Odometry that is lost for five scans goes on from the prior in a new map.
+/// their plane only. Where little of a scan is found, or some of it where space is known to
+/// be free, or the pose is far from the prior, mixtures are registered
+/// (RegistrationTarget), which looks farther. If that leaves doubt, odometry looks for the
+/// sensor in all headings about the map's z axis, as far as half of the scan reaches.
+/// Where nothing fits, the sensor is lost. Odometry that is lost for five scans goes on
+/// from the prior in a new map.
 ///
 /// The same input gives the same poses for any number of threads. Not for concurrent use.
 class HGMM_EXPORT ScanTracker {
