@@ -24,6 +24,11 @@ Eigen::Vector3d rotationVector(const Eigen::Matrix3d& R) {
     return turned.angle() * turned.axis();
 }
 
+bool isFarFrom(const Pose& a, const Pose& b, const SearchRadius& most) {
+    return (a.t - b.t).norm() > most.width_m ||
+           rotationVector(a.R.transpose() * b.R).norm() > most.angle_rad;
+}
+
 Eigen::Matrix3d orthonormal(const Eigen::Matrix3d& R) {
     return Eigen::Quaterniond(R).normalized().toRotationMatrix();
 }

@@ -23,6 +23,9 @@ struct Velocity {
 /// Rotation vector of R [rad].
 Eigen::Vector3d rotationVector(const Eigen::Matrix3d& R);
 
+/// Whether two poses are farther from each other than this, in position or rotation.
+bool isFarFrom(const Pose& a, const Pose& b, const SearchRadius& most);
+
 /// The nearest rotation to a product of many.
 Eigen::Matrix3d orthonormal(const Eigen::Matrix3d& R);
 

@@ -30,9 +30,11 @@ constexpr int kPlacesEachWay = 6;
 constexpr std::size_t kAlignedPlaces = 16, kFarSamples = 500;
 /// Samples that rate a place.
 constexpr std::size_t kRatingSamples = 150;
-/// The best place must be better than any other one by this much, must explain so much, and
-/// call no more than so much of that free [1].
-constexpr double kLead = 0.05, kExplained = 0.25, kMostContradicted = 0.3;
+/// A pose far from the prior must explain so much more than one at the prior, and one at
+/// kFarSquared squared deviations half of it: the tail of the prior is heavy [1].
+constexpr double kFarPoses = 0.1, kFarSquared = 4.0;
+/// And so much more than any other one [1].
+constexpr double kLead = 0.05;
 
 /// A disc about the origin, at even steps.
 std::vector<Eigen::Vector3d> placesAbout(const Eigen::Vector3d& centre, double far_m) {
@@ -111,7 +113,7 @@ std::optional<PoseHypothesis> ScanAlignment::farther(const PoseEstimate& prior) 
                 kFound);
 }
 
-std::optional<PoseHypothesis> ScanAlignment::farAround(const PoseEstimate& prior) const {
+std::vector<PoseHypothesis> ScanAlignment::farAround(const PoseEstimate& prior) const {
     const double far_m =
         std::clamp(kFarPerRange * samples_.gyrationRadius_m, kLeastFar_m, kMostFar_m);
     const double apart_m = far_m / kPlacesEachWay;
@@ -133,17 +135,34 @@ std::optional<PoseHypothesis> ScanAlignment::farAround(const PoseEstimate& prior
                                 places[i].T_local_sensor.t + map_.origin()};
         found[i] = aligned({T_map_sensor, covarianceOf(off)}, off, few);
     }
-    const auto best = std::max_element(
-        found.begin(), found.end(),
-        [](const auto& a, const auto& b) { return a.score() < b.score(); });
-    if (best == found.end() || best->score() < kExplained ||
-        best->contradicted > kMostContradicted * best->overlap)
-        return {};
-    for (const PoseHypothesis& other : found)
+    return found;
+}
+
+PoseHypothesis ScanAlignment::refined(const PoseHypothesis& hypothesis,
+                                      const PoseEstimate& prior) const {
+    const double far_m = (hypothesis.T_map_sensor.t - prior.T_map_sensor.t).norm();
+    return near({hypothesis.T_map_sensor, widened(prior.covariance, {far_m, M_PI})},
+                kFound);
+}
+
+std::optional<std::size_t> clearlyBest(const std::vector<PoseHypothesis>& hypotheses,
+                                       const Pose& prior, const SearchRadius& off) {
+    const auto rated = [&](const PoseHypothesis& h) {
+        const double shift = (h.T_map_sensor.t - prior.t).norm() / off.width_m;
+        const double turn =
+            rotationVector(h.T_map_sensor.R * prior.R.transpose()).norm() / off.angle_rad;
+        const double squared = shift * shift + turn * turn;
+        return h.score() - kFarPoses * squared / (squared + kFarSquared);
+    };
+    const auto best =
+        std::max_element(hypotheses.begin(), hypotheses.end(),
+                         [&](const auto& a, const auto& b) { return rated(a) < rated(b); });
+    for (const PoseHypothesis& other : hypotheses)
         if (!areOnePlace(other.T_map_sensor, best->T_map_sensor) &&
-            other.score() > best->score() - kLead)
+            rated(other) > rated(*best) - kLead &&
+            isFarFrom(best->T_map_sensor, prior, off))
             return {};
-    return near({best->T_map_sensor, widened(prior.covariance, {far_m, M_PI})}, kFound);
+    return static_cast<std::size_t>(best - hypotheses.begin());
 }
 
 }  // namespace hgmm

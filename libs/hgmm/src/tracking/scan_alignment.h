@@ -34,9 +34,12 @@ class ScanAlignment {
     PoseHypothesis near(const PoseEstimate& prior, const SearchRadius& off) const;
     /// By registering mixtures, which looks farther, about the prior's rotation, too.
     std::optional<PoseHypothesis> farther(const PoseEstimate& prior) const;
-    /// All headings of all places about the prior, as far as half of the scan reaches: the
-    /// best, and nothing where it fits badly or another place fits as well.
-    std::optional<PoseHypothesis> farAround(const PoseEstimate& prior) const;
+    /// In all headings about the map's z axis, of places about the prior, as far as half of
+    /// the scan reaches: the likeliest, aligned roughly.
+    std::vector<PoseHypothesis> farAround(const PoseEstimate& prior) const;
+    /// A rough pose, aligned well.
+    PoseHypothesis refined(const PoseHypothesis& hypothesis,
+                           const PoseEstimate& prior) const;
 
  private:
     PoseHypothesis aligned(const PoseEstimate& prior, const SearchRadius& off,
@@ -52,5 +55,11 @@ class ScanAlignment {
     AlignmentSamples samples_;
     AlignmentSamples asked_;
 };
+
+/// The one of some hypotheses that fits best, given how far off the prior may be; none,
+/// where it is far from the prior and another place fits as well.
+/// @param hypotheses at least one
+std::optional<std::size_t> clearlyBest(const std::vector<PoseHypothesis>& hypotheses,
+                                       const Pose& prior, const SearchRadius& off);
 
 }  // namespace hgmm

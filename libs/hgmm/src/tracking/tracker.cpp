@@ -24,11 +24,14 @@ constexpr double kLittle = 0.45, kFallen = 0.75;
 /// as it explains [1].
 constexpr double kContradicted = 0.7;
 /// So many times as much is doubtful [1].
-constexpr double kDoubtful = 0.3;
+constexpr double kDoubtful = 0.2;
 /// So is a pose that is so many deviations from the prior.
-constexpr double kSurprising = 3.0;
+constexpr double kSurprising = 2.0;
 /// Another pose is taken if it explains so much more of the scan [1].
 constexpr double kBetterBy = 0.05;
+/// A doubtful pose is believed if it explains so much of the scan, and calls no more than
+/// so much of that free [1].
+constexpr double kConvincing = 0.2, kUnconvincing = 0.45;
 /// A motion is not guessed to go on for longer than this [s].
 constexpr double kLongestGuess_s = 1.0;
 /// Odometry that recognises no scan so often in a row goes on from the prior in a new map
@@ -45,10 +48,11 @@ SearchRadius narrower(const SearchRadius& a, const SearchRadius& b) {
     return {std::min(a.width_m, b.width_m), std::min(a.angle_rad, b.angle_rad)};
 }
 
-bool isFarFrom(const Pose& a, const Pose& b, const SearchRadius& most) {
-    return (a.t - b.t).norm() > most.width_m ||
-           rotationVector(a.R.transpose() * b.R).norm() > most.angle_rad;
-}
+/// What became of a search.
+struct FoundPose {
+    PoseHypothesis best;
+    bool isBelieved = false;
+};
 
 void requireCovariance(const Registration::Covariance& covariance, const char* what) {
     if (!covariance.allFinite() ||
@@ -98,7 +102,12 @@ struct ScanTracker::Impl {
     PoseEstimate predict(double time_s,
                          const std::optional<MotionIncrement>& odometry) const;
     const Map& map() const { return given ? *given : *local.map(); }
-    PoseHypothesis find(const PoseEstimate& prior) const;
+    /// How far off the prior may be.
+    SearchRadius searchRadius(const PoseEstimate& prior) const;
+    bool isDoubtful(const PoseHypothesis& found, const PoseEstimate& prior) const;
+    /// Whether the sensor is not lost.
+    bool isBelieved(const PoseHypothesis& found, const PoseEstimate& prior) const;
+    FoundPose find(const PoseEstimate& prior) const;
     void renewTarget();
     /// A map of the last scan alone. Returns whether it is in it.
     bool beginAnew();
@@ -158,23 +167,45 @@ SearchRadius ScanTracker::Impl::unknownSince(double time) const {
             notGuessed_s * velocity->angular.norm()};
 }
 
-PoseHypothesis ScanTracker::Impl::find(const PoseEstimate& prior) const {
+bool ScanTracker::Impl::isBelieved(const PoseHypothesis& found,
+                                   const PoseEstimate& prior) const {
+    // Odometry has nothing to set it right later.
+    const bool doubtful = !given && isDoubtful(found, prior);
+    return found.overlap >= std::max(params.minOverlap, doubtful ? kConvincing : 0.0) &&
+           found.contradicted <= (doubtful ? kUnconvincing : kContradicted) * found.overlap;
+}
+
+bool ScanTracker::Impl::isDoubtful(const PoseHypothesis& found,
+                                   const PoseEstimate& prior) const {
+    const SearchRadius off = searchRadius(prior);
+    return found.overlap < std::max(kLittle, kFallen * overlap) ||
+           found.contradicted > kDoubtful * found.overlap ||
+           isFarFrom(prior.T_map_sensor, found.T_map_sensor,
+                     {kSurprising * off.width_m, kSurprising * off.angle_rad});
+}
+
+SearchRadius ScanTracker::Impl::searchRadius(const PoseEstimate& prior) const {
+    return wider(deviation.now(), deviationOf(prior.covariance));
+}
+
+FoundPose ScanTracker::Impl::find(const PoseEstimate& prior) const {
     const ScanAlignment alignment(map(), *target, samples,
                                   static_cast<std::size_t>(params.maxSamples));
-    const SearchRadius off = wider(deviation.now(), deviationOf(prior.covariance));
+    const SearchRadius off = searchRadius(prior);
     PoseHypothesis best = alignment.near(prior, narrower(off, kNearest));
-    const auto doubtful = [&] {
-        return best.overlap < std::max(kLittle, kFallen * overlap) ||
-               best.contradicted > kDoubtful * best.overlap ||
-               isFarFrom(prior.T_map_sensor, best.T_map_sensor,
-                         {kSurprising * off.width_m, kSurprising * off.angle_rad});
-    };
-    const auto consider = [&](const std::optional<PoseHypothesis>& other) {
-        if (other && other->score() > best.score() + kBetterBy) best = *other;
-    };
-    if (doubtful()) consider(alignment.farther(prior));
-    if (doubtful() && !given) consider(alignment.farAround(prior));
-    return best;
+    if (!isDoubtful(best, prior)) return {best, isBelieved(best, prior)};
+    std::vector<PoseHypothesis> all{best};
+    if (const auto farther = alignment.farther(prior)) {
+        all.push_back(*farther);
+        if (farther->score() > best.score() + kBetterBy) best = *farther;
+    }
+    if (given || !isDoubtful(best, prior)) return {best, isBelieved(best, prior)};
+    const std::size_t precise = all.size();
+    for (const PoseHypothesis& rough : alignment.farAround(prior)) all.push_back(rough);
+    const auto chosen = clearlyBest(all, prior.T_map_sensor, off);
+    if (!chosen) return {best, false};
+    best = *chosen < precise ? all[*chosen] : alignment.refined(all[*chosen], prior);
+    return {best, isBelieved(best, prior)};
 }
 
 void ScanTracker::Impl::renewTarget() {
@@ -223,12 +254,11 @@ TrackedPose ScanTracker::track(const Scan& scan, double time_s,
     TrackedPose now;
     static_cast<PoseEstimate&>(now) = prior;
     if (!t.map().empty()) {
-        const PoseHypothesis found = t.find(prior);
+        const auto [found, isBelieved] = t.find(prior);
         now.overlap = found.overlap;
         now.contradicted = found.contradicted;
         now.observable = found.observable;
-        now.lost = found.overlap < t.params.minOverlap ||
-                   now.contradicted > kContradicted * found.overlap;
+        now.lost = !isBelieved;
         if (!now.lost) {
             static_cast<PoseEstimate&>(now) = found;
             t.deviation.learn(prior.T_map_sensor, now.T_map_sensor);
