@@ -59,6 +59,45 @@ TEST(Closure, RefusesAPlaceThatIsAnotherOne) {
     EXPECT_FALSE(verifiedPose(target, source, guess({}, 0.0, 0.0, 1.0, 0.2), {}));
 }
 
+/// A room of 8 x 6 m with eight things in it, like others but for where these are.
+Scene furnishedRoom(std::mt19937_64& random) {
+    Scene scene;
+    for (const auto& [low, high] :
+         {std::pair{Eigen::Vector3d(-4, -3, -1), Eigen::Vector3d(4, -2.8, 2)},
+          {Eigen::Vector3d(-4, 2.8, -1), Eigen::Vector3d(4, 3, 2)},
+          {Eigen::Vector3d(-4, -3, -1), Eigen::Vector3d(-3.8, 3, 2)},
+          {Eigen::Vector3d(3.8, -3, -1), Eigen::Vector3d(4, 3, 2)}})
+        scene.add(evaluation::Box{low, high}, Part::wall);
+    std::uniform_real_distribution<double> along(-3.3, 3.3), width(0.15, 0.4);
+    for (int k = 0; k < 8; ++k) {
+        const double side = k % 2 == 0 ? 1.0 : -1.0;  // the middle is where the robot goes
+        const Eigen::Vector3d at(along(random), side * (1.6 + 0.3 * width(random)), -1);
+        const double half = width(random);
+        scene.add(evaluation::Box{at - Eigen::Vector3d(half, half, 0),
+                                  at + Eigen::Vector3d(half, half, 3)},
+                  Part::pole);
+    }
+    return scene;
+}
+
+/// How many of some pairs of rooms that look alike are taken for one.
+int mistaken(int pairs) {
+    std::mt19937_64 random(11);
+    int count = 0;
+    for (int k = 0; k < pairs; ++k) {
+        const FinishedSubmap target =
+            submapOf(furnishedRoom(random), posesAlong(-2, 2, 0.3, 0.0));
+        const FinishedSubmap source =
+            submapOf(furnishedRoom(random), posesAlong(-2, 2, -0.2, 0.0));
+        count += verifiedPose(target, source, guess({}, 0.0, 0.0, 1.0, 0.3), {}) ? 1 : 0;
+    }
+    return count;
+}
+
+TEST(Closure, RoomsThatLookAlikeAreNotTakenForOne) {
+    EXPECT_EQ(mistaken(12), 0);
+}
+
 TEST(Closure, AgreementTellsFoundFromContradictedAndUnseen) {
     const Scene scene = ringCorridor();
     const FinishedSubmap submap = submapOf(scene, posesAlong(-6, -1, -6, 0.0));
