@@ -51,14 +51,21 @@ double medianRange(const Mixture<3>& samples_sensor) {
     return std::sqrt(static_cast<double>(*middle));
 }
 
-/// The verified closures of the newest of some submaps.
+/// The verified closures of the newest of some submaps. Those that ended early hold too
+/// little to be aligned well.
 std::vector<PoseEdge> closuresOf(const std::vector<SharedSubmap>& submaps,
-                                 const PoseGraph& graph, const ClosureParams& params) {
+                                 const PoseGraph& graph, const SlamParams& params) {
     const std::size_t newest = submaps.size() - 1;
+    const auto endedEarly = [&](std::size_t k) {
+        return static_cast<int>(submaps[k]->submap.T_submap_robot.size()) <
+               params.submap.minScans;
+    };
     std::vector<PoseEdge> found;
-    for (const Candidate& c : candidatesFor(submaps, graph, newest, params)) {
-        const auto pose =
-            verifiedPose(*submaps[c.target], *submaps[newest], c.T_target_source, params);
+    if (endedEarly(newest)) return found;
+    for (const Candidate& c : candidatesFor(submaps, graph, newest, params.closure)) {
+        if (endedEarly(c.target)) continue;
+        const auto pose = verifiedPose(*submaps[c.target], *submaps[newest],
+                                       c.T_target_source, params.closure);
         if (pose) found.push_back({c.target, newest, *pose, PoseEdge::Kind::closure});
     }
     return found;
@@ -113,11 +120,11 @@ struct SubmapSlam::Impl {
     void complete() {
         enterClosures();
         submaps.push_back(std::make_shared<const FinishedSubmap>(std::move(current)));
-        search = std::async(std::launch::async,
-                            [all = submaps, known = graph, closure = params.closure] {
-                                omp_set_num_threads(1);  // the front has the others
-                                return closuresOf(all, known, closure);
-                            });
+        search =
+            std::async(std::launch::async, [all = submaps, known = graph, slam = params] {
+                omp_set_num_threads(1);  // the front has the others
+                return closuresOf(all, known, slam);
+            });
     }
 
     /// Finishes the submap at hand and begins the next one where the robot is.

@@ -14,7 +14,7 @@ struct SubmapParams {
     double minLength_m = 0.5;     ///< [m], > 0
     double maxLength_m = 10.0;    ///< [m], >= minLength_m
     double maxTurn_rad = 1.2;     ///< sum of turns [rad], > 0
-    int minScans = 5;             ///< [count], >= 1
+    int minScans = 5;             ///< also for loop closures to be looked for [count], >= 1
 
     /// Throws std::invalid_argument naming the field.
     void validate() const;
