@@ -33,8 +33,10 @@ constexpr std::size_t kRatingSamples = 150;
 /// A pose far from the prior must explain so much more than one at the prior, and one at
 /// kFarSquared squared deviations half of it: the tail of the prior is heavy [1].
 constexpr double kFarPoses = 0.1, kFarSquared = 4.0;
-/// And so much more than any other one [1].
+/// Of poses that explain as much, give or take this [1], the nearest to the prior is taken,
 constexpr double kLead = 0.05;
+/// unless another place is hardly farther: by less than this, squared.
+constexpr double kRivalSquared = 4.0;
 
 /// A disc about the origin, at even steps.
 std::vector<Eigen::Vector3d> placesAbout(const Eigen::Vector3d& centre, double far_m) {
@@ -147,22 +149,26 @@ PoseHypothesis ScanAlignment::refined(const PoseHypothesis& hypothesis,
 
 std::optional<std::size_t> clearlyBest(const std::vector<PoseHypothesis>& hypotheses,
                                        const Pose& prior, const SearchRadius& off) {
-    const auto rated = [&](const PoseHypothesis& h) {
+    std::vector<double> squared, rated;  // deviations from the prior; scores
+    for (const PoseHypothesis& h : hypotheses) {
         const double shift = (h.T_map_sensor.t - prior.t).norm() / off.width_m;
         const double turn =
             rotationVector(h.T_map_sensor.R * prior.R.transpose()).norm() / off.angle_rad;
-        const double squared = shift * shift + turn * turn;
-        return h.score() - kFarPoses * squared / (squared + kFarSquared);
-    };
-    const auto best =
-        std::max_element(hypotheses.begin(), hypotheses.end(),
-                         [&](const auto& a, const auto& b) { return rated(a) < rated(b); });
-    for (const PoseHypothesis& other : hypotheses)
-        if (!areOnePlace(other.T_map_sensor, best->T_map_sensor) &&
-            rated(other) > rated(*best) - kLead &&
-            isFarFrom(best->T_map_sensor, prior, off))
+        squared.push_back(shift * shift + turn * turn);
+        rated.push_back(h.score() -
+                        kFarPoses * squared.back() / (squared.back() + kFarSquared));
+    }
+    const double enough = *std::max_element(rated.begin(), rated.end()) - kLead;
+    std::size_t best = hypotheses.size();
+    for (std::size_t k = 0; k < hypotheses.size(); ++k)
+        if (rated[k] >= enough && (best == hypotheses.size() || squared[k] < squared[best]))
+            best = k;
+    if (squared[best] < 1.0) return best;
+    for (std::size_t k = 0; k < hypotheses.size(); ++k)
+        if (rated[k] >= enough && squared[k] < kRivalSquared * squared[best] &&
+            !areOnePlace(hypotheses[k].T_map_sensor, hypotheses[best].T_map_sensor))
             return {};
-    return static_cast<std::size_t>(best - hypotheses.begin());
+    return best;
 }
 
 }  // namespace hgmm

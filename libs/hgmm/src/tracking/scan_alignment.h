@@ -56,8 +56,8 @@ class ScanAlignment {
     AlignmentSamples asked_;
 };
 
-/// The one of some hypotheses that fits best, given how far off the prior may be; none,
-/// where it is far from the prior and another place fits as well.
+/// Of some hypotheses the nearest to the prior that fits about as well as any; none, where
+/// it is far from the prior and another place fits as well that is hardly farther.
 /// @param hypotheses at least one
 std::optional<std::size_t> clearlyBest(const std::vector<PoseHypothesis>& hypotheses,
                                        const Pose& prior, const SearchRadius& off);
