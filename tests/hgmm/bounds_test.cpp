@@ -129,17 +129,17 @@ TEST(Bounds, ExactCopiesAreEqualFarFromTheFirstScan) {
     }
 }
 
-std::vector<std::uint32_t> candidatesAt(const BoxIndex& index, float v) {
+std::vector<std::uint32_t> candidatesAt(const BoxIndex<3>& index, float v) {
     std::vector<std::uint32_t> found;
     index.visitCandidates(v, v, v, [&](std::uint32_t i) { found.push_back(i); });
     return found;
 }
 
 TEST(Bounds, BoxesAreFoundBeyondTheLastCells) {
-    BoxIndex index;
+    BoxIndex<3> index;
     const float centres[] = {-1048576.F, 1048576.F, -1e9F, 1e9F, 0.F};
     for (std::uint32_t i = 0; i < 5; ++i)
-        index.update(i, {{centres[i], centres[i], centres[i]}, {1e-4F, 1e-4F, 1e-4F}});
+        index.add({{centres[i], centres[i], centres[i]}, {1e-4F, 1e-4F, 1e-4F}});
     for (std::uint32_t i = 0; i < 5; ++i) {
         const auto found = candidatesAt(index, centres[i]);
         EXPECT_EQ(std::count(found.begin(), found.end(), i), 1) << centres[i];
@@ -147,15 +147,15 @@ TEST(Bounds, BoxesAreFoundBeyondTheLastCells) {
 }
 
 TEST(Bounds, LargeBoxesTakeFewCells) {
-    BoxIndex index;
-    index.update(0, {{0, 0, 0}, {4e8F, 4e8F, 4e8F}});
+    BoxIndex<3> index;
+    index.add({{0, 0, 0}, {4e8F, 4e8F, 4e8F}});
     EXPECT_LT(index.liveBytes(), 100000U);
     EXPECT_EQ(candidatesAt(index, 3e8F).size(), 1U);
 }
 
 TEST(Bounds, LongRaysThroughSmallCellsEnd) {
-    BoxIndex index;
-    index.update(0, {{1e6F, 0, 0}, {1e-4F, 1e-4F, 1e-4F}});
+    BoxIndex<3> index;
+    index.add({{1e6F, 0, 0}, {1e-4F, 1e-4F, 1e-4F}});
     const float start[3] = {0, 0, 0}, direction[3] = {1, 0, 0};
     int met = 0;
     index.visitAlongRay(start, direction, 1e6F, [&](std::uint32_t) { ++met; });

@@ -1,120 +1,145 @@
 #include "index/box_index.h"
 
-#include <algorithm>
 #include <stdexcept>
+
+#include "base/growth.h"
 
 namespace hgmm {
 
-namespace {
-
-/// Whether a table is to grow before it holds so many.
-bool isFull(std::size_t used, std::size_t slots) {
-    return 4 * used > 3 * slots;
-}
-
-}  // namespace
-
-BoxIndex::Placement BoxIndex::placementOf(const Box& box) const {
-    const float largest = std::max({box.halfExtent[0], box.halfExtent[1], box.halfExtent[2],
-                                    std::ldexp(1.F, kMinOctave)});
-    Placement p;
-    p.octave = static_cast<std::int8_t>(
-        std::clamp(static_cast<int>(std::ceil(std::log2(largest))) - cells_.finer,
-                   cells_.leastOctave, kMaxOctave));
-    const float scale = perCell(p.octave);
-    for (int d = 0; d < 3; ++d) {
-        p.low[d] = cellOf(box.centre[d] - box.halfExtent[d], scale);
-        p.high[d] = cellOf(box.centre[d] + box.halfExtent[d], scale);
-    }
-    return p;
-}
-
-bool BoxIndex::reaches(const Box& box, const float* low, const float* high) const {
-    const Placement p = placementOf(box);
-    const float scale = perCell(p.octave);
-    bool meets = true;
+template <int kBlockShift>
+auto BoxIndex<kBlockShift>::reachOf(const Point& centre, const BoxCells& cells) -> Reach {
+    const Cell middle = BoxCells::cellOf(centre, cells.octave);
+    Reach reach;
+    reach.octave = static_cast<std::int8_t>(cells.octave);
     for (int d = 0; d < 3; ++d)
-        meets = meets && cellOf(low[d], scale) <= p.high[d] &&
-                p.low[d] <= cellOf(high[d], scale);
-    return meets;
+        reach.belowAndAbove[d] = static_cast<std::uint8_t>(
+            (middle[d] - cells.low[d]) | (cells.high[d] - middle[d]) << 4);
+    return reach;
 }
 
-void BoxIndex::reserve(std::size_t n) {
-    // As maps go, a box touches some five cells that no other one has touched.
-    constexpr std::size_t cellsPerBox = 5;
-    std::size_t slots = 256;
-    while (isFull(cellsPerBox * n, slots)) slots *= 2;
-    if (slots > slots_.size()) growTable(slots);
-    placements_.reserve(n);
+template <int kBlockShift>
+BoxCells BoxIndex<kBlockShift>::cellsOf(const Point& centre, const Reach& reach) const {
+    const Cell middle = BoxCells::cellOf(centre, reach.octave);
+    BoxCells cells;
+    cells.octave = reach.octave;
+    for (int d = 0; d < 3; ++d) {
+        cells.low[d] = middle[d] - (reach.belowAndAbove[d] & 15);
+        cells.high[d] = middle[d] + (reach.belowAndAbove[d] >> 4);
+    }
+    return cells;
 }
 
-void BoxIndex::growTable(std::size_t slots) {
-    std::vector<Slot> old(slots);
+template <int kBlockShift>
+template <typename Visitor>
+void BoxIndex<kBlockShift>::forEachBlock(const BoxCells& cells, Visitor&& visit) const {
+    const auto blockOf = [](std::int32_t c) { return c >> kBlockShift; };
+    constexpr std::int32_t edge = 1 << kBlockShift;
+    // Cells of a block that lie in the range, along an axis.
+    const auto bits = [&](int d, std::int32_t block) {
+        const std::int32_t first = std::max(cells.low[d] - block * edge, 0);
+        const std::int32_t last = std::min(cells.high[d] - block * edge, edge - 1);
+        return (2U << unsigned(last)) - (1U << unsigned(first));
+    };
+    const Cell &a = cells.low, &b = cells.high;
+    for (std::int32_t x = blockOf(a[0]); x <= blockOf(b[0]); ++x)
+        for (std::int32_t y = blockOf(a[1]); y <= blockOf(b[1]); ++y)
+            for (std::int32_t z = blockOf(a[2]); z <= blockOf(b[2]); ++z)
+                visit(keyOf(cells.octave, {x * edge, y * edge, z * edge}),
+                      bits(0, x) | bits(1, y) << 8U | bits(2, z) << 16U);
+}
+
+template <int kBlockShift>
+void BoxIndex<kBlockShift>::growTable() {
+    std::vector<Slot> old(slots_.size() + slots_.size() / 4 + 16);
     old.swap(slots_);
-    const std::size_t mask = slots_.size() - 1;
     for (const Slot& slot : old) {
         if (!slot.used()) continue;
-        std::size_t s = hash(slot.key) & mask;
-        while (slots_[s].used()) s = (s + 1) & mask;
+        std::size_t s = homeOf(slot.key);
+        while (slots_[s].used()) s = next(s);
         slots_[s] = slot;
     }
 }
 
-BoxIndex::Slot& BoxIndex::findOrAdd(std::uint64_t key) {
-    if (isFull(usedSlots_ + 1, slots_.size())) growTable(2 * slots_.size());
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t s = hash(key) & mask;
-    while (slots_[s].used() && slots_[s].key != key) s = (s + 1) & mask;
-    Slot& slot = slots_[s];
-    if (!slot.used()) {
-        slot.key = key;
+template <int kBlockShift>
+auto BoxIndex<kBlockShift>::findOrAdd(std::uint64_t key) -> Slot& {
+    if (3 * (usedSlots_ + 1) > 2 * slots_.size()) growTable();
+    std::size_t s = homeOf(key);
+    while (slots_[s].used() && slots_[s].key != key) s = next(s);
+    if (!slots_[s].used()) {
+        slots_[s].key = key;
         ++usedSlots_;
     }
-    return slot;
+    return slots_[s];
 }
 
-std::uint32_t BoxIndex::allocate(unsigned capacityLog2) {
-    std::vector<std::uint32_t>& unused = free_[capacityLog2];
-    if (!unused.empty()) {
-        const std::uint32_t begin = unused.back();
-        unused.pop_back();
-        return begin;
+template <int kBlockShift>
+void BoxIndex<kBlockShift>::erase(Slot& slot) {
+    auto hole = static_cast<std::size_t>(&slot - slots_.data());
+    // Those behind it move up, unless their own place is behind the hole.
+    for (std::size_t s = next(hole); slots_[s].used(); s = next(s)) {
+        const std::size_t home = homeOf(slots_[s].key);
+        const bool stays = hole <= s ? hole < home && home <= s : hole < home || home <= s;
+        if (stays) continue;
+        slots_[hole] = slots_[s];
+        hole = s;
     }
-    const auto begin = static_cast<std::uint32_t>(pool_.size());
-    const std::size_t size = pool_.size() + (std::size_t{1} << capacityLog2);
-    if (size > pool_.capacity()) pool_.reserve(size + size / 4);
-    pool_.resize(size);
-    return begin;
+    slots_[hole] = Slot{};
+    --usedSlots_;
 }
 
-void BoxIndex::add(std::uint64_t key, std::uint32_t i) {
-    Slot& slot = findOrAdd(key);
-    if (slot.count == 1U << slot.capacityLog2) {
-        const std::uint32_t larger = allocate(slot.capacityLog2 + 1);
-        std::copy_n(membersOf(slot), slot.count, pool_.begin() + larger);
-        if (slot.capacityLog2 > 0) free_[slot.capacityLog2].push_back(slot.begin);
-        slot.begin = larger;
-        ++slot.capacityLog2;
+template <int kBlockShift>
+std::uint32_t BoxIndex<kBlockShift>::placeOf(std::uint32_t i, const Slot& slot) const {
+    const Entry* const first = entries_.data(slot.run);
+    return static_cast<std::uint32_t>(
+        std::partition_point(first, first + slot.run.count,
+                             [i](const Entry& entry) { return entry.box < i; }) -
+        first);
+}
+
+template <int kBlockShift>
+void BoxIndex<kBlockShift>::enter(std::uint32_t i, const BoxCells& cells) {
+    forEachBlock(cells, [&](std::uint64_t key, std::uint32_t touched) {
+        Slot& slot = findOrAdd(key);
+        entries_.insert(slot.run, placeOf(i, slot), entryOf(i, touched));
+    });
+    count(cells.octave, 1);
+}
+
+template <int kBlockShift>
+void BoxIndex<kBlockShift>::leave(std::uint32_t i, const Point& centre) {
+    const BoxCells cells = cellsOf(centre, reaches_[i]);
+    forEachBlock(cells, [&](std::uint64_t key, std::uint32_t) {
+        Slot& slot = findOrAdd(key);
+        const std::uint32_t place = placeOf(i, slot);
+        if (place == slot.run.count || entries_.data(slot.run)[place].box != i)
+            throw std::logic_error("BoxIndex: a box is not where its centre was");
+        entries_.erase(slot.run, place);
+        if (slot.run.count == 0) erase(slot);
+    });
+    count(cells.octave, -1);
+}
+
+template <int kBlockShift>
+void BoxIndex<kBlockShift>::update(std::uint32_t i, const Box& box,
+                                   const Point& formerCentre) {
+    if (i > size()) throw std::out_of_range("BoxIndex::update: a gap before it");
+    const BoxCells cells = BoxCells::of(box);
+    if (i < size()) {
+        const BoxCells former = cellsOf(formerCentre, reaches_[i]);
+        if (former == cells) {
+            reaches_[i] = reachOf(box.centre, cells);
+            return;
+        }
+        leave(i, formerCentre);
+    } else {
+        growTo(reaches_, i + std::size_t{1});
     }
-    std::uint32_t *const first = membersOf(slot), *const last = first + slot.count;
-    std::uint32_t* const place = std::upper_bound(first, last, i);
-    std::copy_backward(place, last, last + 1);
-    *place = i;
-    ++slot.count;
+    reaches_[i] = reachOf(box.centre, cells);
+    enter(i, cells);
 }
 
-void BoxIndex::remove(std::uint64_t key, std::uint32_t i) {
-    const Slot* found = find(key);
-    if (found == nullptr) return;
-    Slot& slot = slots_[static_cast<std::size_t>(found - slots_.data())];
-    std::uint32_t *const first = membersOf(slot), *const last = first + slot.count;
-    std::uint32_t* const member = std::find(first, last, i);
-    if (member == last) return;
-    std::copy(member + 1, last, member);
-    --slot.count;
-}
-
-void BoxIndex::count(int octave, int boxes) {
+template <int kBlockShift>
+void BoxIndex<kBlockShift>::count(int octave, int boxes) {
     std::uint32_t& inOctave = boxesInOctave_[octave - kMinOctave];
     const bool wasUsed = inOctave > 0;
     inOctave += static_cast<std::uint32_t>(boxes);
@@ -125,47 +150,7 @@ void BoxIndex::count(int octave, int boxes) {
             usedOctaves_[usedOctaveCount_++] = static_cast<std::int8_t>(o + kMinOctave);
 }
 
-void BoxIndex::place(std::uint32_t i, const Placement& placement) {
-    if (i > size()) throw std::out_of_range("BoxIndex::update: a gap before it");
-    if (slots_.empty()) growTable(256);
-    if (i == size())
-        placements_.emplace_back();
-    else
-        count(placements_[i].octave, -1);
-    placements_[i] = placement;
-    count(placement.octave, 1);
-}
-
-void BoxIndex::update(std::uint32_t i, const Box& box) {
-    const Placement p = placementOf(box);
-    const bool isNew = i >= size(), stays = !isNew && placements_[i] == p;
-    if (!isNew && !stays) {
-        const Placement& old = placements_[i];
-        forEachCell(old, [&](auto... cell) { remove(keyOf(old.octave, cell...), i); });
-    }
-    place(i, p);
-    if (!stays) forEachCell(p, [&](auto... cell) { add(keyOf(p.octave, cell...), i); });
-}
-
-void BoxIndex::truncate(std::size_t n) {
-    for (; size() > n; placements_.pop_back()) {
-        const Placement gone = placements_.back();
-        const auto i = static_cast<std::uint32_t>(size() - 1);
-        forEachCell(gone, [&](auto... cell) { remove(keyOf(gone.octave, cell...), i); });
-        count(gone.octave, -1);
-    }
-}
-
-void BoxIndex::clear() {
-    *this = BoxIndex(cells_);
-}
-
-std::size_t BoxIndex::liveBytes() const {
-    std::size_t bytes = placements_.capacity() * sizeof(Placement) +
-                        slots_.capacity() * sizeof(Slot) +
-                        pool_.capacity() * sizeof(std::uint32_t);
-    for (const auto& unused : free_) bytes += unused.capacity() * sizeof(std::uint32_t);
-    return bytes;
-}
+template class BoxIndex<0>;
+template class BoxIndex<3>;
 
 }  // namespace hgmm

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <utility>
+#include <type_traits>
 #include <vector>
 
-#include "base/power_of_two.h"
+#include "base/run_pool.h"
+#include "index/box_cells.h"
 #include "index/cell_order.h"
 
 namespace hgmm {
@@ -16,59 +16,49 @@ namespace hgmm {
 /// Finds the boxes that may hold a point at a cost that does not depend on how many there
 /// are.
 ///
-/// A hash grid with one level per octave of size: a box is entered in every cell, of a size
-/// just above its own largest half extent, that it touches; a query looks up one cell per
-/// level in use. Cells lie in one open-addressing table whose members are stored
-/// contiguously.
+/// A hash grid with one level per octave of size: a box is in every cell, of a size just
+/// above its own largest half extent, that it touches; a query looks up one cell per level
+/// in use. Cells lie in cubic blocks. A block lists its boxes once each, with the cells
+/// that they touch along each axis, so that memory follows boxes and not cells.
+///
+/// Of a box it keeps only how far it reaches from the cell of its centre. The owner knows
+/// centres, and passes the former one with every change.
+///
+/// @tparam kBlockShift log2 of the cells of a block along an axis, 0 to 3: 0 where many
+/// boxes share a cell and a query must pass over none in vain, 3 where few do and blocks of
+/// a single cell would take more than their lists
+template <int kBlockShift>
 class BoxIndex {
+    static_assert(kBlockShift >= 0 && kBlockShift <= 3, "entries have 8 bits an axis");
+
  public:
-    static constexpr int kMinOctave = -10, kMaxOctave = 30;
-
-    struct Box {
-        std::array<float, 3> centre{};      ///< [m]
-        std::array<float, 3> halfExtent{};  ///< [m], >= 0
-    };
-
-    /// How large cells are.
-    struct Cells {
-        int finer = 0;  ///< octaves below those of boxes [octave]
-        /// Boxes so small share cells of 2^leastOctave metres, in [-10, 30].
-        int leastOctave = kMinOctave;
-    };
-
-    BoxIndex() = default;
-    explicit BoxIndex(const Cells& cells) : cells_(cells) {}
+    static constexpr int kMinOctave = BoxCells::kMinOctave,
+                         kMaxOctave = BoxCells::kMaxOctave;
+    using Box = BoxCells::Box;
+    using Point = std::array<float, 3>;  ///< [m]
 
     /// Enters or re-enters box i, which must be < size() or the next one.
-    void update(std::uint32_t i, const Box& box);
-    /// The same for a body inside its box: enters it in the cells that it touches.
-    /// @param touches touches(centre, halfEdge) tells it of a cube, const float* and float
-    /// [m]; it may err for cubes that are only nearly touched
-    /// @param touched the same test of the body that box i held before; not called for a
-    /// new box
-    template <typename Touches, typename Touched>
-    void update(std::uint32_t i, const Box& box, Touches&& touches, Touched&& touched);
+    /// @param formerCentre of a box that is re-entered; not read for a new one
+    void update(std::uint32_t i, const Box& box, const Point& formerCentre);
+    void add(const Box& box) { update(static_cast<std::uint32_t>(size()), box, {}); }
     /// Drops boxes n, n + 1, ...
-    void truncate(std::size_t n);
-    void clear();
+    /// @param centreOf centreOf(i) returns the centre of box i, a Point
+    template <typename CentreOf>
+    void truncate(std::size_t n, CentreOf&& centreOf) {
+        for (; size() > n; reaches_.pop_back()) {
+            const auto i = static_cast<std::uint32_t>(size() - 1);
+            leave(i, centreOf(i));
+        }
+    }
+    void clear() { *this = BoxIndex(); }
     /// Makes room for n boxes in all.
-    void reserve(std::size_t n);
-    std::size_t size() const { return placements_.size(); }
+    void reserve(std::size_t n) { reaches_.reserve(n); }
+    std::size_t size() const { return reaches_.size(); }
 
     /// Calls visit(i) for each box in whose cells (x, y, z) lies, each once, smaller cells
     /// first and rising within a cell: an order that depends on the boxes alone.
     template <typename Visitor>
     void visitCandidates(float x, float y, float z, Visitor&& visit) const;
-
-    /// Whether visitCandidates may visit a box, once it is entered, at a point between two
-    /// corners.
-    bool reaches(const Box& box, const float* low, const float* high) const;
-
-    /// Calls visit(i) for each box in whose cells the ray from `start` along the unit
-    /// vector `direction` comes within `length` [m], possibly several times.
-    template <typename Visitor>
-    void visitAlongRay(const float* start, const float* direction, float length,
-                       Visitor&& visit) const;
 
     /// The same for points that follow each other in few cells: calls visit(i, first, last)
     /// for each box in whose cells the points first to last - 1 lie. A point's boxes
@@ -79,206 +69,198 @@ class BoxIndex {
     /// Octave of the smallest cells in use; 0 if there are none.
     int smallestOctave() const { return usedOctaveCount_ > 0 ? usedOctaves_[0] : 0; }
 
+    /// Calls visit(i) for each box in whose cells the ray from `start` along the unit
+    /// vector `direction` comes within `length` [m], possibly several times.
+    template <typename Visitor>
+    void visitAlongRay(const float* start, const float* direction, float length,
+                       Visitor&& visit) const;
+
     /// Heap held [bytes].
-    std::size_t liveBytes() const;
+    std::size_t liveBytes() const {
+        return reaches_.capacity() * sizeof(Reach) + slots_.capacity() * sizeof(Slot) +
+               entries_.liveBytes();
+    }
 
  private:
-    struct Placement {
-        std::int8_t octave = 0;
-        std::array<std::int32_t, 3> low{}, high{};
-        bool operator==(const Placement& o) const {
-            return octave == o.octave && low == o.low && high == o.high;
-        }
-    };
-    /// A cell's members are pool_[begin .. begin + count); room for 1 << capacityLog2. A
-    /// single one, as most cells have, is `begin` itself: capacityLog2 is 0.
-    struct Slot {
-        std::uint64_t key = kUnused;
-        std::uint32_t begin = 0;
-        std::uint32_t count : 27;
-        std::uint32_t capacityLog2 : 5;
-        Slot() : count(0), capacityLog2(0) {}
-        bool used() const { return key != kUnused; }
-    };
-
-    static constexpr std::uint64_t kUnused = ~std::uint64_t{0};  ///< no cell has this key
+    using Cell = BoxCells::Cell;
     static constexpr int kOctaves = kMaxOctave - kMinOctave + 1;
 
-    static std::uint64_t keyOf(int octave, std::int32_t x, std::int32_t y, std::int32_t z) {
-        constexpr std::uint64_t mask = (1U << 19U) - 1U;
-        return std::uint64_t(octave - kMinOctave) << 57U |
-               (std::uint64_t(x) & mask) << 38U | (std::uint64_t(y) & mask) << 19U |
-               (std::uint64_t(z) & mask);
+    /// Cells from that of the centre to the ends of a box, below and above, along an axis.
+    /// Boxes are at most two cells wide, and rounding makes that five.
+    struct Reach {
+        std::int8_t octave = 0;
+        std::array<std::uint8_t, 3> belowAndAbove{};  ///< 4 bits each
+    };
+    /// A box in a block. Bit 8 d + c says that it touches cell c along axis d.
+    struct BoxInBlock {
+        std::uint32_t box, cells;
+        bool touches(std::uint32_t bits) const { return (cells & bits) == bits; }
+    };
+    /// The same in a block of a single cell.
+    struct BoxInCell {
+        std::uint32_t box;
+        bool touches(std::uint32_t) const { return true; }
+    };
+    using Entry = std::conditional_t<kBlockShift == 0, BoxInCell, BoxInBlock>;
+    static Entry entryOf(std::uint32_t box, std::uint32_t cells) {
+        if constexpr (kBlockShift == 0)
+            return {box};
+        else
+            return {box, cells};
     }
-    static std::size_t hash(std::uint64_t key) {
-        key *= 0x9E3779B97F4A7C15ULL;
-        return static_cast<std::size_t>(key ^ key >> 32U);
-    }
-    /// `v` in cells of 1 / perCell metres. All that is beyond the limit shares the cells
-    /// there; NaN, which nothing is indexed at, any.
-    static std::int32_t cellOf(float v, float perCell) {
-        constexpr std::int32_t kLimit = 1 << 30;
-        const float cell = v * perCell;
-        if (!(cell > float(-kLimit) && cell < float(kLimit)))
-            return cell < 0 ? -kLimit : kLimit;
-        return floorToInt(cell);
-    }
-    static float perCell(int octave) { return floatPowerOfTwo(-octave); }
+    struct Slot {
+        std::uint64_t key = kUnused;
+        PoolRun run;  ///< rising
+        bool used() const { return key != kUnused; }
+    };
+    static constexpr std::uint64_t kUnused = ~std::uint64_t{0};  ///< no block has this key
 
-    /// Whether a ray passes so many cells, or such far ones, that looking at all boxes is
-    /// better.
-    bool isLongFor(const float* start, float length, float perCell) const {
-        constexpr float kFarthest = 1 << 29;
-        const float farthest =
-            std::max({std::abs(start[0]), std::abs(start[1]), std::abs(start[2])}) + length;
-        return !(farthest * perCell < kFarthest) ||
-               length * perCell > 1000.F + 4.F * static_cast<float>(size());
-    }
-    /// What a test of bodies says of a cell.
-    template <typename Test>
-    static bool holds(Test&& test, int octave, std::int32_t x, std::int32_t y,
-                      std::int32_t z) {
-        const float edge = floatPowerOfTwo(octave);
-        const float centre[3] = {(float(x) + 0.5F) * edge, (float(y) + 0.5F) * edge,
-                                 (float(z) + 0.5F) * edge};
-        return test(centre, 0.5F * edge);
-    }
-    Placement placementOf(const Box& box) const;
-    /// Notes where box i is from now on; its cells are left as they are.
-    void place(std::uint32_t i, const Placement& placement);
-    template <typename Visitor>
-    static void forEachCell(const Placement& p, Visitor&& visit);
-    /// Counts a box in or out.
-    void count(int octave, int boxes);
-    const std::uint32_t* membersOf(const Slot& slot) const {
-        return slot.capacityLog2 == 0 ? &slot.begin : pool_.data() + slot.begin;
-    }
-    std::uint32_t* membersOf(Slot& slot) {
-        return slot.capacityLog2 == 0 ? &slot.begin : pool_.data() + slot.begin;
-    }
+    std::uint64_t keyOf(int octave, const Cell& cell) const;
+    /// The bits of an entry that touches a cell.
+    std::uint32_t bitsOf(const Cell& cell) const;
+    std::size_t homeOf(std::uint64_t key) const;
+    std::size_t next(std::size_t s) const { return s + 1 == slots_.size() ? 0 : s + 1; }
     const Slot* find(std::uint64_t key) const;
     Slot& findOrAdd(std::uint64_t key);
-    void growTable(std::size_t slots);
-    std::uint32_t allocate(unsigned capacityLog2);
-    void add(std::uint64_t key, std::uint32_t i);
-    void remove(std::uint64_t key, std::uint32_t i);
+    void erase(Slot& slot);
+    void growTable();
 
-    Cells cells_;
-    std::vector<Placement> placements_;
+    static Reach reachOf(const Point& centre, const BoxCells& cells);
+    BoxCells cellsOf(const Point& centre, const Reach& reach) const;
+    /// Calls visit(key, cells) for each block that a box touches.
+    template <typename Visitor>
+    void forEachBlock(const BoxCells& cells, Visitor&& visit) const;
+    /// Where a box is in the list of a block, or would be entered.
+    std::uint32_t placeOf(std::uint32_t i, const Slot& slot) const;
+    void enter(std::uint32_t i, const BoxCells& cells);
+    void leave(std::uint32_t i, const Point& centre);
+    /// Counts boxes in or out.
+    void count(int octave, int boxes);
+    template <typename Visitor>
+    void visitCell(const Slot& slot, const Cell& cell, Visitor&& visit) const;
+
+    std::vector<Reach> reaches_;
     std::vector<Slot> slots_;
     std::size_t usedSlots_ = 0;
-    std::vector<std::uint32_t> pool_;
-    std::array<std::vector<std::uint32_t>, 32> free_;  ///< begins of unused runs, by size
+    RunPool<Entry> entries_;
     std::array<std::uint32_t, kOctaves> boxesInOctave_{};
     std::array<std::int8_t, kOctaves>
         usedOctaves_{};  ///< the first usedOctaveCount_, rising
     int usedOctaveCount_ = 0;
 };
 
-inline const BoxIndex::Slot* BoxIndex::find(std::uint64_t key) const {
-    const std::size_t mask = slots_.size() - 1;
-    for (std::size_t s = hash(key) & mask;; s = (s + 1) & mask) {
-        if (!slots_[s].used()) return nullptr;
+template <int kBlockShift>
+std::uint64_t BoxIndex<kBlockShift>::keyOf(int octave, const Cell& cell) const {
+    constexpr std::uint64_t mask = (1U << 19U) - 1U;
+    std::uint64_t key = std::uint64_t(octave - kMinOctave);
+    for (const std::int32_t c : cell)
+        key = key << 19U | (std::uint64_t(c >> kBlockShift) & mask);
+    return key;
+}
+
+template <int kBlockShift>
+std::uint32_t BoxIndex<kBlockShift>::bitsOf(const Cell& cell) const {
+    const std::int32_t inBlock = (1 << kBlockShift) - 1;
+    return 1U << unsigned(cell[0] & inBlock) | 256U << unsigned(cell[1] & inBlock) |
+           65536U << unsigned(cell[2] & inBlock);
+}
+
+template <int kBlockShift>
+std::size_t BoxIndex<kBlockShift>::homeOf(std::uint64_t key) const {
+    key *= 0x9E3779B97F4A7C15ULL;
+    key ^= key >> 32U;
+    return static_cast<std::size_t>(std::uint64_t(std::uint32_t(key)) * slots_.size() >>
+                                    32U);
+}
+
+template <int kBlockShift>
+auto BoxIndex<kBlockShift>::find(std::uint64_t key) const -> const Slot* {
+    if (slots_.empty()) return nullptr;
+    for (std::size_t s = homeOf(key);; s = next(s)) {
         if (slots_[s].key == key) return &slots_[s];
+        if (!slots_[s].used()) return nullptr;
     }
 }
 
+template <int kBlockShift>
 template <typename Visitor>
-void BoxIndex::forEachCell(const Placement& p, Visitor&& visit) {
-    for (std::int32_t x = p.low[0]; x <= p.high[0]; ++x)
-        for (std::int32_t y = p.low[1]; y <= p.high[1]; ++y)
-            for (std::int32_t z = p.low[2]; z <= p.high[2]; ++z) visit(x, y, z);
-}
-
-template <typename Touches, typename Touched>
-void BoxIndex::update(std::uint32_t i, const Box& box, Touches&& touches,
-                      Touched&& touched) {
-    const Placement p = placementOf(box);
-    const bool isNew = i >= size(), stays = !isNew && placements_[i] == p;
-    if (!isNew && !stays) {
-        const Placement& old = placements_[i];
-        forEachCell(old, [&](auto... cell) {
-            if (holds(touched, old.octave, cell...)) remove(keyOf(old.octave, cell...), i);
-        });
+void BoxIndex<kBlockShift>::visitCell(const Slot& slot, const Cell& cell,
+                                      Visitor&& visit) const {
+    constexpr std::uint32_t kAtOnce = 32;
+    const Entry* entry = entries_.data(slot.run);
+    if constexpr (kBlockShift == 0) {
+        for (std::uint32_t k = 0; k < slot.run.count; ++k) visit(entry[k].box);
+        return;
     }
-    place(i, p);
-    // Most cells of a body that moved a little are those that it touched before.
-    forEachCell(p, [&](auto... cell) {
-        const bool was = stays && holds(touched, p.octave, cell...);
-        const bool is = holds(touches, p.octave, cell...);
-        if (was && !is) remove(keyOf(p.octave, cell...), i);
-        if (is && !was) add(keyOf(p.octave, cell...), i);
-    });
+    const std::uint32_t bits = bitsOf(cell);
+    std::uint32_t found[kAtOnce];
+    for (std::uint32_t left = slot.run.count; left > 0;) {
+        const std::uint32_t n = std::min(left, kAtOnce);
+        std::uint32_t count = 0;
+        // Without branches, which would be guessed wrong.
+        for (std::uint32_t k = 0; k < n; ++k) {
+            found[count] = entry[k].box;
+            count += entry[k].touches(bits) ? 1 : 0;
+        }
+        for (std::uint32_t k = 0; k < count; ++k) visit(found[k]);
+        entry += n, left -= n;
+    }
 }
 
+template <int kBlockShift>
 template <typename Visitor>
-void BoxIndex::visitCandidates(float x, float y, float z, Visitor&& visit) const {
+void BoxIndex<kBlockShift>::visitCandidates(float x, float y, float z,
+                                            Visitor&& visit) const {
     for (int o = 0; o < usedOctaveCount_; ++o) {
         const int octave = usedOctaves_[o];
-        const float scale = perCell(octave);
-        const Slot* slot =
-            find(keyOf(octave, cellOf(x, scale), cellOf(y, scale), cellOf(z, scale)));
-        if (slot == nullptr) continue;
-        const std::uint32_t* member = membersOf(*slot);
-        for (std::uint32_t k = 0; k < slot->count; ++k) visit(member[k]);
+        const Cell cell = BoxCells::cellOf({x, y, z}, octave);
+        const Slot* slot = find(keyOf(octave, cell));
+        if (slot != nullptr) visitCell(*slot, cell, visit);
     }
 }
 
+template <int kBlockShift>
 template <typename Visitor>
-void BoxIndex::visitCandidates(const CellOrder& points, std::size_t begin, std::size_t end,
-                               Visitor&& visit) const {
+void BoxIndex<kBlockShift>::visitCandidates(const CellOrder& points, std::size_t begin,
+                                            std::size_t end, Visitor&& visit) const {
     for (int o = 0; o < usedOctaveCount_; ++o) {
         const int octave = usedOctaves_[o];
-        const float scale = perCell(octave);
-        const auto keyAt = [&](std::size_t k) {
-            return keyOf(octave, cellOf(points.x[k], scale), cellOf(points.y[k], scale),
-                         cellOf(points.z[k], scale));
+        const auto cellAt = [&](std::size_t k) {
+            return BoxCells::cellOf({points.x[k], points.y[k], points.z[k]}, octave);
         };
-        std::uint64_t key = begin < end ? keyAt(begin) : kUnused;
+        Cell cell{}, following = begin < end ? cellAt(begin) : Cell{};
+        std::uint64_t key = kUnused;
+        const Slot* slot = nullptr;
         for (std::size_t first = begin, last = begin; first < end; first = last) {
-            const std::uint64_t cell = key;
-            for (++last; last < end && (key = keyAt(last)) == cell;) ++last;
-            const Slot* slot = find(cell);
+            cell = following;
+            for (++last; last < end && (following = cellAt(last)) == cell;) ++last;
+            const std::uint64_t block = keyOf(octave, cell);
+            if (block != key) slot = find(key = block);
             if (slot == nullptr) continue;
-            const std::uint32_t* member = membersOf(*slot);
-            for (std::uint32_t k = 0; k < slot->count; ++k) visit(member[k], first, last);
+            visitCell(*slot, cell, [&](std::uint32_t i) { visit(i, first, last); });
         }
     }
 }
 
+template <int kBlockShift>
 template <typename Visitor>
-void BoxIndex::visitAlongRay(const float* start, const float* direction, float length,
-                             Visitor&& visit) const {
+void BoxIndex<kBlockShift>::visitAlongRay(const float* start, const float* direction,
+                                          float length, Visitor&& visit) const {
     for (int o = 0; o < usedOctaveCount_; ++o) {
         const int octave = usedOctaves_[o];
-        const float scale = perCell(octave);
-        if (isLongFor(start, length, scale)) {
-            for (std::uint32_t i = 0; i < size(); ++i)
-                if (placements_[i].octave == octave) visit(i);
-            continue;
-        }
-        // Steps from one cell boundary to the next, along whichever axis comes first.
-        std::array<std::int32_t, 3> cell{};
-        std::array<double, 3> toBoundary{}, betweenBoundaries{};
-        for (int d = 0; d < 3; ++d) {
-            cell[d] = cellOf(start[d], scale);
-            const double speed = std::abs(double(direction[d])) * scale;
-            betweenBoundaries[d] = speed > 1e-12 ? 1.0 / speed : 1e30;
-            const double inside = double(start[d]) * scale - cell[d];
-            toBoundary[d] =
-                betweenBoundaries[d] * (direction[d] > 0 ? 1.0 - inside : inside);
-        }
-        for (double travelled = 0; travelled <= length;) {
-            const Slot* slot = find(keyOf(octave, cell[0], cell[1], cell[2]));
-            for (std::uint32_t k = 0; slot != nullptr && k < slot->count; ++k)
-                visit(membersOf(*slot)[k]);
-            int axis = toBoundary[0] < toBoundary[1] ? 0 : 1;
-            if (toBoundary[2] < toBoundary[axis]) axis = 2;
-            travelled = toBoundary[axis];
-            toBoundary[axis] += betweenBoundaries[axis];
-            cell[axis] += direction[axis] > 0 ? 1 : -1;
-        }
+        const bool walked =
+            walkRay(start, direction, length, octave,
+                    1000.F + 4.F * static_cast<float>(size()), [&](const Cell& cell) {
+                        const Slot* slot = find(keyOf(octave, cell));
+                        if (slot != nullptr) visitCell(*slot, cell, visit);
+                    });
+        if (walked) continue;
+        for (std::uint32_t i = 0; i < size(); ++i)
+            if (reaches_[i].octave == octave) visit(i);
     }
 }
+
+extern template class BoxIndex<0>;
+extern template class BoxIndex<3>;
 
 }  // namespace hgmm

@@ -3,10 +3,12 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/growth.h"
+
 namespace hgmm {
 
-BoxIndex::Box ComponentIndex::boxOf(const Gaussian<3>& inflated) const {
-    BoxIndex::Box box;
+BoxCells::Box ComponentIndex::boxOf(const Gaussian<3>& inflated) const {
+    BoxCells::Box box;
     for (int d = 0; d < 3; ++d) {
         box.centre[d] = static_cast<float>(inflated.mean[d]);
         box.halfExtent[d] =
@@ -19,7 +21,7 @@ bool ComponentIndex::reaches(const Gaussian<3>& component,
                              const Eigen::AlignedBox3f& box) const {
     Gaussian<3> inflated = component;
     inflated.covariance.diagonal().array() += inflationVariance_;
-    return boxes_.reaches(boxOf(inflated), box.min().data(), box.max().data());
+    return BoxCells::of(boxOf(inflated)).meet(box.min().data(), box.max().data());
 }
 
 void ComponentIndex::update(const Mixture<3>& mixture, std::uint32_t i) {
@@ -27,11 +29,13 @@ void ComponentIndex::update(const Mixture<3>& mixture, std::uint32_t i) {
         throw std::out_of_range("ComponentIndex::update: a gap before it");
     Gaussian<3> g = mixture[i];
     g.covariance.diagonal().array() += inflationVariance_;
-    if (i == factors_.size())
-        factors_.emplace_back(g);
-    else
-        factors_[i] = Factor(g);
-    boxes_.update(i, boxOf(g));
+    if (i == factors_.size()) {
+        growTo(factors_, i + std::size_t{1});
+        boxes_.add(boxOf(g));
+    } else {
+        boxes_.update(i, boxOf(g), centreOf(i));
+    }
+    factors_[i] = Factor(g);
 }
 
 void ComponentIndex::rebuild(const Mixture<3>& mixture) {
@@ -41,7 +45,7 @@ void ComponentIndex::rebuild(const Mixture<3>& mixture) {
 }
 
 void ComponentIndex::truncate(std::size_t n) {
-    boxes_.truncate(n);
+    boxes_.truncate(n, [this](std::uint32_t i) { return centreOf(i); });
     if (factors_.size() > n) factors_.resize(n);
 }
 

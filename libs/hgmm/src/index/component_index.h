@@ -69,12 +69,16 @@ class ComponentIndex {
     std::size_t liveBytes() const;
 
  private:
-    BoxIndex::Box boxOf(const Gaussian<3>& inflated) const;
+    BoxCells::Box boxOf(const Gaussian<3>& inflated) const;
+    /// Of the component's box.
+    std::array<float, 3> centreOf(std::uint32_t i) const {
+        return {factors_[i].mean(0), factors_[i].mean(1), factors_[i].mean(2)};
+    }
 
     float sigmas_;
     float inflationVariance_;
     std::vector<Factor> factors_;
-    BoxIndex boxes_;
+    BoxIndex<3> boxes_;
 };
 
 }  // namespace hgmm

@@ -36,8 +36,8 @@ class Crop {
     }
 
  private:
-    bool reaches(const BoxIndex::Box& box) const {
-        return boxes_.reaches(box, corners_.min().data(), corners_.max().data());
+    bool reaches(const BoxCells::Box& box) const {
+        return BoxCells::of(box).meet(corners_.min().data(), corners_.max().data());
     }
 
     /// Coverage is also asked behind surfaces that reach the box.
@@ -85,7 +85,6 @@ class Crop {
     const Model& model_;
     const Eigen::AlignedBox3d box_;
     const Eigen::AlignedBox3f corners_;
-    const BoxIndex boxes_;
     const ComponentIndex ellipsoids_;
 };
 

@@ -17,9 +17,9 @@ constexpr double kPassedDensity = 0.05;
 /// were marked from farther away.
 constexpr double kSideCells = 1.5;
 
-BoxIndex::Box boxAround(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+BoxCells::Box boxAround(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                         const Eigen::Vector3d& halfExtent) {
-    BoxIndex::Box box;
+    BoxCells::Box box;
     for (int d = 0; d < 3; ++d) {
         box.centre[d] = static_cast<float>((a[d] + b[d]) / 2);
         box.halfExtent[d] = static_cast<float>(std::abs(a[d] - b[d]) / 2 + halfExtent[d]);
@@ -70,7 +70,7 @@ float OccupancyModel::sideOf(const OccupancyParams& params, const ViewDirection&
     return static_cast<float>(kSideCells * params.coverage.edgeAt(view.range_m));
 }
 
-BoxIndex::Box OccupancyModel::reachOf(const OccupancyParams& params,
+BoxCells::Box OccupancyModel::reachOf(const OccupancyParams& params,
                                       const Gaussian<3>& surface,
                                       const ViewDirection& view) {
     const auto reach_m = static_cast<float>(params.band.reach(view.range_m));
@@ -80,7 +80,7 @@ BoxIndex::Box OccupancyModel::reachOf(const OccupancyParams& params,
     return boxAround(surface.mean + back, surface.mean + front, ellipsoidExtent(surface));
 }
 
-BoxIndex::Box OccupancyModel::reachOf(const Gaussian<4>& component) {
+BoxCells::Box OccupancyModel::reachOf(const Gaussian<4>& component) {
     const Eigen::Vector3d mean = component.mean.head<3>();
     return boxAround(mean, mean, ellipsoidExtent(component));
 }
@@ -105,13 +105,14 @@ void OccupancyModel::updateSurface(std::uint32_t i, const Gaussian<3>& surface,
     if (i == bands_.size()) bands_.emplace_back();
     bands_.at(i) = band;
     boxes_.resize(bands_.size());
-    boxes_[i] = reachOf(params_, surface, view);
-    bandBoxes_.update(i, boxes_[i]);
+    const BoxCells::Box box = reachOf(params_, surface, view);
+    bandBoxes_.update(i, box, boxes_[i].centre);
+    boxes_[i] = box;
     bounds_.reset();
 }
 
 void OccupancyModel::truncateSurfaces(std::size_t n) {
-    bandBoxes_.truncate(n);
+    bandBoxes_.truncate(n, [this](std::uint32_t i) { return boxes_[i].centre; });
     if (bands_.size() <= n) return;
     bands_.resize(n);
     boxes_.resize(n);
@@ -120,8 +121,10 @@ void OccupancyModel::truncateSurfaces(std::size_t n) {
 
 void OccupancyModel::updateFree(std::uint32_t i, const Gaussian<4>& component) {
     if (i == freeJoints_.size()) freeJoints_.emplace_back();
-    freeJoints_.at(i) = jointOf(component);
-    freeBoxes_.update(i, reachOf(component));
+    Joint& joint = freeJoints_.at(i);
+    freeBoxes_.update(i, reachOf(component),
+                      {joint.place.mean(0), joint.place.mean(1), joint.place.mean(2)});
+    joint = jointOf(component);
 }
 
 template <typename T>
@@ -173,7 +176,7 @@ Eigen::Vector3d OccupancyModel::gradient(const Eigen::Vector3d& point) const {
 
 std::size_t OccupancyModel::liveBytes() const {
     return bands_.capacity() * sizeof(Band) + freeJoints_.capacity() * sizeof(Joint) +
-           boxes_.capacity() * sizeof(BoxIndex::Box) + bandBoxes_.liveBytes() +
+           boxes_.capacity() * sizeof(BoxCells::Box) + bandBoxes_.liveBytes() +
            freeBoxes_.liveBytes();
 }
 

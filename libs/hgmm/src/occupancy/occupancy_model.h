@@ -45,9 +45,9 @@ class OccupancyModel {
     OccupancyModel(const OccupancyParams& params, const Coverage& coverage);
 
     /// Answers depend on a component only at points that a BoxIndex with this box leads to.
-    static BoxIndex::Box reachOf(const OccupancyParams& params, const Gaussian<3>& surface,
+    static BoxCells::Box reachOf(const OccupancyParams& params, const Gaussian<3>& surface,
                                  const ViewDirection& view);
-    static BoxIndex::Box reachOf(const Gaussian<4>& component);
+    static BoxCells::Box reachOf(const Gaussian<4>& component);
     /// Where coverage tells whether space is open behind a surface.
     static Eigen::Vector3d beyond(const OccupancyParams& params, const Gaussian<3>& surface,
                                   const ViewDirection& view);
@@ -170,9 +170,9 @@ class OccupancyModel {
     double sharpness_;       ///< of extents against thickness
     std::vector<Band> bands_;
     std::vector<Joint> freeJoints_;
-    std::vector<BoxIndex::Box> boxes_;  ///< of bands, kSigmas to each side
-    BoxIndex bandBoxes_;                ///< who is in boxes_
-    BoxIndex freeBoxes_;
+    std::vector<BoxCells::Box> boxes_;  ///< of bands, kSigmas to each side
+    BoxIndex<0> bandBoxes_;             ///< who is in boxes_
+    BoxIndex<0> freeBoxes_;
     mutable Lazy<Bounds> bounds_;  ///< of all boxes_
 };
 

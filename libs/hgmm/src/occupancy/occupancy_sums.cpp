@@ -36,7 +36,7 @@ T tapered(const T& density) {
     return valueOf(density) > kCutDensity ? density - kCutDensity : T(0.0);
 }
 
-bool isInside(const BoxIndex::Box& box, const float* point) {
+bool isInside(const BoxCells::Box& box, const float* point) {
     // Without branches: three tests cost less than one that is guessed wrong.
     bool inside = true;
     for (int d = 0; d < 3; ++d)

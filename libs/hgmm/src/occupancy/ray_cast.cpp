@@ -20,7 +20,7 @@ std::pair<double, double> OccupancyModel::spanAlong(
     constexpr float far = std::numeric_limits<float>::max();
     const Bounds& bounds = bounds_.get([this] {
         auto made = std::make_unique<Bounds>(Bounds{{far, far, far}, {-far, -far, -far}});
-        for (const BoxIndex::Box& box : boxes_)
+        for (const BoxCells::Box& box : boxes_)
             for (int d = 0; d < 3; ++d) {
                 made->low[d] = std::min(made->low[d], box.centre[d] - box.halfExtent[d]);
                 made->high[d] = std::max(made->high[d], box.centre[d] + box.halfExtent[d]);

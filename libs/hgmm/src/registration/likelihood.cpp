@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hgmm/params.h"
-#include "index/box_index.h"
+#include "index/body_index.h"
 
 namespace hgmm {
 
@@ -43,13 +43,13 @@ constexpr double kLeastForCells_m = 0.02;
 
 /// Cells are half as large as the space around a thin patch. Small patches share this size:
 /// a query looks into one cell of each size in use.
-BoxIndex::Cells cellsFor(double kernelWidth_m, double outlierRatio) {
+BodyIndex::Cells cellsFor(double kernelWidth_m, double outlierRatio) {
     requireInRange("kernelWidth_m", kernelWidth_m, 0.0, 1e3);
     requireInRange("outlierRatio", outlierRatio, 1e-9, 1.0 - 1e-9);
     const double reach_m =
         std::max(kernelWidth_m, kLeastForCells_m) * reachOf(outlierRatio);
     const int octave = std::clamp(static_cast<int>(std::ceil(std::log2(reach_m))),
-                                  BoxIndex::kMinOctave, BoxIndex::kMaxOctave);
+                                  BoxCells::kMinOctave, BoxCells::kMaxOctave);
     return {kFiner, octave};
 }
 
@@ -102,14 +102,14 @@ struct SurfaceLikelihood::Impl {
     double height_;   ///< what the kernel is scaled by, once lowered
     std::vector<Patch> patches_;
     std::vector<Moments> moments_;  ///< what the patches were made of
-    BoxIndex boxes_;
+    BodyIndex bodies_;
 };
 
 SurfaceLikelihood::Impl::Impl(const Mixture<3>& mixture, double kernelWidth_m,
                               double outlierRatio)
     : kernelVariance_m2_(kernelWidth_m * kernelWidth_m),
       outlierRatio_(outlierRatio),
-      boxes_(cellsFor(kernelWidth_m, outlierRatio)) {
+      bodies_(cellsFor(kernelWidth_m, outlierRatio)) {
     reach_ = static_cast<float>(reachOf(outlierRatio));
     tailEnd_ = kernel(reach_ * reach_);
     height_ = (1 - outlierRatio) / (1 - tailEnd_);
@@ -119,11 +119,11 @@ SurfaceLikelihood::Impl::Impl(const Mixture<3>& mixture, double kernelWidth_m,
 void SurfaceLikelihood::Impl::update(const Mixture<3>& mixture) {
     const auto n = static_cast<std::uint32_t>(mixture.size());
     if (patches_.size() > n) {
-        boxes_.truncate(n);
+        bodies_.truncate(n);
         patches_.resize(n);
         moments_.resize(n);
     }
-    boxes_.reserve(n);
+    bodies_.reserve(n);
     patches_.reserve(n);
     moments_.reserve(n);
     for (std::uint32_t i = 0; i < n; ++i)
@@ -159,7 +159,7 @@ void SurfaceLikelihood::Impl::enter(const Mixture<3>& mixture, std::uint32_t i) 
         if (a > 0) patch.halfEdge[a - 1] = static_cast<float>(halfEdge / s);
         reach += (halfEdge + reach_ * s) * axis.cwiseAbs();
     }
-    BoxIndex::Box box;
+    BodyIndex::Box box;
     for (int d = 0; d < 3; ++d) {
         patch.mean[d] = box.centre[d] = static_cast<float>(g.mean[d]);
         box.halfExtent[d] = static_cast<float>(reach[d]);
@@ -173,7 +173,7 @@ void SurfaceLikelihood::Impl::enter(const Mixture<3>& mixture, std::uint32_t i) 
             return touches(p, centre, halfEdge);
         };
     };
-    boxes_.update(i, box, touchedBy(patch), touchedBy(patches_[i]));
+    bodies_.update(i, box, touchedBy(patch), touchedBy(patches_[i]));
     patches_[i] = patch;
     moments_[i] = momentsOf(mixture, i);
 }
@@ -211,7 +211,7 @@ inline float SurfaceLikelihood::Impl::squaredDistance(const Patch& patch, float 
 double SurfaceLikelihood::Impl::probability(float x, float y, float z) const {
     if (patches_.empty()) return outlierRatio_;
     float nearest = std::numeric_limits<float>::infinity();
-    boxes_.visitCandidates(x, y, z, [&](std::uint32_t j) {
+    bodies_.visitCandidates(x, y, z, [&](std::uint32_t j) {
         nearest = std::min(nearest, squaredDistance(patches_[j], x, y, z));
     });
     // The reach itself, not that of the boxes: where cells begin must not matter.
@@ -221,7 +221,7 @@ double SurfaceLikelihood::Impl::probability(float x, float y, float z) const {
 
 std::size_t SurfaceLikelihood::Impl::liveBytes() const {
     return patches_.capacity() * sizeof(Patch) + moments_.capacity() * sizeof(Moments) +
-           boxes_.liveBytes();
+           bodies_.liveBytes();
 }
 
 SurfaceLikelihood::SurfaceLikelihood(const Mixture<3>& mixture, double kernelWidth_m,
