@@ -141,25 +141,31 @@ TEST(CoarseGrid, AgreesWithBruteForceThroughMovesAndRemovals) {
     CoarseGrid grid;
     std::vector<Eigen::Vector3d> means;
     const auto randomPoint = [&] {
-        return Eigen::Vector3d(uniform(engine, -90, 90), uniform(engine, -90, 90),
-                               uniform(engine, -10, 10));
+        return Eigen::Vector3d(Eigen::Vector3d(uniform(engine, -90, 90),
+                                               uniform(engine, -90, 90),
+                                               uniform(engine, -10, 10))
+                                   .cast<float>()
+                                   .cast<double>());
     };
     for (int step = 0; step < 2000; ++step) {
         // Every other step adds, so that the grid fills.
         const auto i = static_cast<std::uint32_t>(
             step % 2 == 0 ? means.size() : engine() % (means.size() + 1));
         if (step % 3 == 2 && i < means.size()) {
-            means[i] = means.back();
+            const auto last = static_cast<std::uint32_t>(means.size() - 1);
+            grid.remove(last, means[last].cast<float>());
+            if (i < last) grid.move(i, means[i].cast<float>(), means[last].cast<float>());
+            means[i] = means[last];
             means.pop_back();
-            grid.truncate(means.size());
-            if (i < means.size()) grid.update(i, means[i]);
+        } else if (i == means.size()) {
+            means.push_back(randomPoint());
+            grid.add(i, means[i].cast<float>());
         } else {
-            if (i == means.size()) means.emplace_back();
+            const Eigen::Vector3d before = means[i];
             means[i] = randomPoint();
-            grid.update(i, means[i]);
+            grid.move(i, before.cast<float>(), means[i].cast<float>());
         }
         if (step % 20 != 0 || means.empty()) continue;
-        ASSERT_EQ(grid.size(), means.size());
         const Eigen::Vector3d a = randomPoint(),
                               b = randomPoint() * (step % 40 ? 1.0 : 1e12);
         const Eigen::Vector3d low = a.cwiseMin(b), high = a.cwiseMax(b);

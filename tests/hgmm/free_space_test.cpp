@@ -35,7 +35,7 @@ std::vector<RayBundle> hall(std::uint64_t seed) {
 
 SurfacePyramid clearanceOf(const std::vector<RayBundle>& bundles) {
     SurfacePyramid pyramid;
-    for (std::uint32_t i = 0; i < bundles.size(); ++i) pyramid.update(i, bundles[i].mean);
+    for (const RayBundle& bundle : bundles) pyramid.add(bundle.mean.cast<float>());
     return pyramid;
 }
 
@@ -144,10 +144,9 @@ TEST(FreeSpace, CellsShrinkNearSurfaces) {
     ray.mean << 16, 0.3, 0.3;
     ray.covariance = 1e-2 * Eigen::Matrix3d::Identity();
     SurfacePyramid open, floor;
-    open.update(0, ray.mean);
-    std::uint32_t n = 0;
+    open.add(ray.mean.cast<float>());
     for (double x = 0; x < 16; x += 0.25)
-        for (double y = -1; y < 1.5; y += 0.25) floor.update(n++, {x, y, 0.05});
+        for (double y = -1; y < 1.5; y += 0.25) floor.add({float(x), float(y), 0.05F});
     const auto cells = [&](const SurfacePyramid& pyramid) {
         FreeSpace space;
         FreeSpaceParams params;

@@ -43,7 +43,7 @@ struct Asked {
         index.rebuild(surfaces);
         CoarseGrid grid;
         for (std::uint32_t i = 0; i < surfaces.size(); ++i)
-            grid.update(i, surfaces[i].mean);
+            grid.add(i, surfaces[i].mean.cast<float>());
         return hgmm::missed(surfaces, hit, maxSupport, {ends, limit, kSpacing_rad}, index,
                             grid);
     }

@@ -27,7 +27,6 @@ bool nearByHand(const std::vector<Eigen::Vector3d>& means, const LatticeCell& ce
 
 void expectAgreement(const SurfacePyramid& pyramid,
                      const std::vector<Eigen::Vector3d>& means, std::mt19937_64& engine) {
-    ASSERT_EQ(pyramid.size(), means.size());
     int near = 0, clear = 0;
     for (int q = 0; q < 400; ++q) {
         const int octave = static_cast<int>(engine() % 13) + SurfacePyramid::kMinOctave;
@@ -44,9 +43,9 @@ TEST(SurfacePyramid, AgreesWithBruteForceThroughMovesAndRemovals) {
     std::mt19937_64 engine(1);
     SurfacePyramid pyramid;
     std::vector<Eigen::Vector3d> means;
-    for (std::uint32_t i = 0; i < 150; ++i) {
+    for (int i = 0; i < 150; ++i) {
         means.push_back(randomPoint(engine));
-        pyramid.update(i, means.back());
+        pyramid.add(means.back().cast<float>());
     }
     expectAgreement(pyramid, means, engine);
     for (int step = 0; step < 10; ++step) {
@@ -54,20 +53,20 @@ TEST(SurfacePyramid, AgreesWithBruteForceThroughMovesAndRemovals) {
             const auto i = static_cast<std::uint32_t>(engine() % means.size());
             // Small moves stay in the larger cells, large ones leave all.
             const double reach = k % 2 == 0 ? 0.1 : 10;
+            const Eigen::Vector3d before = means[i];
             means[i] += reach / 10 * randomPoint(engine);
             for (int d = 0; d < 3; ++d) means[i][d] = float(means[i][d]);
-            pyramid.update(i, means[i]);
+            pyramid.move(before.cast<float>(), means[i].cast<float>());
         }
         for (int k = 0; k < 10; ++k) {
             const auto i = static_cast<std::uint32_t>(engine() % means.size());
+            pyramid.remove(means[i].cast<float>());
             means[i] = means.back();
             means.pop_back();
-            pyramid.truncate(means.size());
-            if (i < means.size()) pyramid.update(i, means[i]);
         }
         expectAgreement(pyramid, means, engine);
     }
-    pyramid.truncate(0);
+    for (const Eigen::Vector3d& mean : means) pyramid.remove(mean.cast<float>());
     for (int octave = SurfacePyramid::kMinOctave; octave <= SurfacePyramid::kMaxOctave;
          ++octave)
         EXPECT_FALSE(pyramid.isNearSurface(LatticeCell::at({0, 0, 0}, octave)));
@@ -75,7 +74,7 @@ TEST(SurfacePyramid, AgreesWithBruteForceThroughMovesAndRemovals) {
 
 TEST(SurfacePyramid, AsksTheParentOfWhatIsTooSmallAndClearsNothingTooLarge) {
     SurfacePyramid pyramid(-1);
-    pyramid.update(0, {0.9, 0.4, 0.4});
+    pyramid.add({0.9F, 0.4F, 0.4F});
     EXPECT_TRUE(pyramid.isNearSurface(LatticeCell::at({0.1, 0.1, 0.1}, -4)));
     EXPECT_FALSE(pyramid.isNearSurface(LatticeCell::at({-0.1, 0.1, 0.1}, -4)));
     EXPECT_FALSE(pyramid.isNearSurface(LatticeCell::at({0.1, -0.6, 0.1}, -1)));

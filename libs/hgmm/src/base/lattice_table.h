@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -17,9 +18,7 @@ class LatticeTable {
 
     /// Makes room for n cells in all.
     void reserve(std::size_t n) {
-        std::size_t slots = 16;
-        while (3 * slots < 4 * n) slots *= 2;
-        if (slots > slots_.size()) rehash(slots);
+        if (4 * n > 3 * slots_.size()) rehash(4 * n / 3 + n / 2 + 16);
     }
 
     /// The value of a cell, nullptr if it has none. Holds until the next change.
@@ -77,9 +76,11 @@ class LatticeTable {
         bool used() const { return cell.octave != kUnused; }
     };
 
-    std::size_t next(std::size_t s) const { return (s + 1) & (slots_.size() - 1); }
+    std::size_t next(std::size_t s) const { return s + 1 == slots_.size() ? 0 : s + 1; }
     std::size_t homeOf(const LatticeCell& cell) const {
-        return LatticeCellHash()(cell) & (slots_.size() - 1);
+        const std::uint64_t hash = LatticeCellHash()(cell);
+        return static_cast<std::size_t>(
+            std::uint64_t{std::uint32_t(hash)} * slots_.size() >> 32U);
     }
     /// Where a cell is, or would be entered.
     std::size_t place(const LatticeCell& cell) const {
@@ -94,7 +95,7 @@ class LatticeTable {
             if (slot.used()) slots_[place(slot.cell)] = slot;
     }
 
-    std::vector<Slot> slots_;  ///< a power of two, at most three of four used
+    std::vector<Slot> slots_;  ///< at most three of four used
     std::size_t size_ = 0;
 };
 

@@ -2,38 +2,51 @@
 
 namespace hgmm {
 
-void SurfacePyramid::count(const LatticeCell& cell, int change) {
-    std::uint32_t& components = *components_.tryEmplace(cell, 0U).first;
-    components += static_cast<std::uint32_t>(change);
-    if (components == 0) components_.erase(cell);
+namespace {
+
+/// The cell two octaves up that holds a block of 4 x 4 x 4 cells.
+LatticeCell cellOfBlock(const LatticeCell& block) {
+    return {block.octave + CellBlocks::kShift, block.x, block.y, block.z};
 }
 
-void SurfacePyramid::reserve(std::size_t n) {
-    means_.reserve(n);
-    components_.reserve(n);
-}
+}  // namespace
 
-void SurfacePyramid::update(std::uint32_t i, const Eigen::Vector3d& mean) {
-    const bool isNew = i == means_.size();
-    if (isNew) means_.emplace_back();
-    LatticeCell old = smallestCell(means_.at(i));
-    means_[i] = mean.cast<float>();
-    LatticeCell now = smallestCell(means_[i]);
-    for (; now.octave <= kMaxOctave; now = now.parent(), old = old.parent()) {
-        if (!isNew) {
-            // Larger cells are the same, too.
-            if (old == now) return;
-            count(old, -1);
-        }
-        count(now, 1);
+void SurfacePyramid::add(const Eigen::Vector3f& mean) {
+    LatticeCell cell = smallestCell(mean);
+    if (holds(cell)) {
+        ++*more_.tryEmplace(cell, 0U).first;
+        return;
+    }
+    while (cell.octave <= kMaxOctave) {
+        const LatticeCell block = CellBlocks::blockOf(cell);
+        // Larger cells hold another mean.
+        if (!cells_.mark(block, CellBlocks::bitOf(cell))) return;
+        cell = cellOfBlock(block);
     }
 }
 
-void SurfacePyramid::truncate(std::size_t n) {
-    for (; means_.size() > n; means_.pop_back())
-        for (LatticeCell cell = smallestCell(means_.back()); cell.octave <= kMaxOctave;
-             cell = cell.parent())
-            count(cell, -1);
+void SurfacePyramid::remove(const Eigen::Vector3f& mean) {
+    LatticeCell cell = smallestCell(mean);
+    if (more_.find(cell) != nullptr) {
+        if (--*more_.tryEmplace(cell, 0U).first == 0) more_.erase(cell);
+        return;
+    }
+    while (cell.octave <= kMaxOctave) {
+        const LatticeCell block = CellBlocks::blockOf(cell);
+        cells_.unmark(block, CellBlocks::bitOf(cell));
+        if (cells_.word(block) != 0) return;
+        cell = cellOfBlock(block);
+    }
+}
+
+bool SurfacePyramid::holds(const LatticeCell& cell) const {
+    if ((cell.octave - minOctave_) % CellBlocks::kShift == 0)
+        return (cells_.word(CellBlocks::blockOf(cell)) & CellBlocks::bitOf(cell)) != 0;
+    // Its eight children, which lie in one block.
+    constexpr CellBlocks::Word kEight = 0x0000000000330033;
+    const LatticeCell lowest{cell.octave - 1, 2 * cell.x, 2 * cell.y, 2 * cell.z};
+    return (cells_.word(CellBlocks::blockOf(lowest)) &
+            kEight * CellBlocks::bitOf(lowest)) != 0;
 }
 
 bool SurfacePyramid::isNearSurface(const LatticeCell& cell) const {
@@ -48,10 +61,6 @@ bool SurfacePyramid::isNearSurface(const LatticeCell& cell) const {
             if (holds(around)) return true;
         }
     return false;
-}
-
-std::size_t SurfacePyramid::liveBytes() const {
-    return means_.capacity() * sizeof(Mean) + components_.liveBytes();
 }
 
 }  // namespace hgmm

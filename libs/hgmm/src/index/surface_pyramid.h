@@ -2,9 +2,9 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "base/lattice_table.h"
+#include "index/cell_blocks.h"
 
 namespace hgmm {
 
@@ -14,38 +14,38 @@ class SurfacePyramid {
  public:
     static constexpr int kMinOctave = -4, kMaxOctave = 8;
 
-    /// @param minOctave of the smallest cells, in [kMinOctave, kMaxOctave]: most memory is
-    /// theirs
+    /// @param minOctave of the smallest cells, in [kMinOctave, kMaxOctave]
     explicit SurfacePyramid(int minOctave = kMinOctave) : minOctave_(minOctave) {}
 
-    /// Enters or moves component i, which must be < size() or the next one.
-    void update(std::uint32_t i, const Eigen::Vector3d& mean);
-    /// Drops components n, n + 1, ...
-    void truncate(std::size_t n);
-    std::size_t size() const { return means_.size(); }
-    /// Makes room for n components in all.
-    void reserve(std::size_t n);
+    /// Means are those of components as they are stored, in single precision.
+    void add(const Eigen::Vector3f& mean);
+    /// @param mean one that was added
+    void remove(const Eigen::Vector3f& mean);
+    void move(const Eigen::Vector3f& from, const Eigen::Vector3f& to) {
+        if (smallestCell(from) == smallestCell(to)) return;
+        remove(from);
+        add(to);
+    }
 
     /// Whether the cell or one across a face of it holds a surface. Of a cell that is too
     /// small, its parent of minOctave is asked; one that is too large is taken to be near.
     bool isNearSurface(const LatticeCell& cell) const;
 
-    std::size_t liveBytes() const;
+    std::size_t liveBytes() const { return cells_.liveBytes() + more_.liveBytes(); }
 
  private:
-    using Mean = Eigen::Matrix<float, 3, 1, Eigen::DontAlign>;
-
-    void count(const LatticeCell& cell, int change);
-    bool holds(const LatticeCell& cell) const { return components_.find(cell) != nullptr; }
+    bool holds(const LatticeCell& cell) const;
 
     /// The smallest cell around a mean; the others are its parents.
-    LatticeCell smallestCell(const Mean& mean) const {
+    LatticeCell smallestCell(const Eigen::Vector3f& mean) const {
         return LatticeCell::at(mean.cast<double>(), minOctave_);
     }
 
     int minOctave_;
-    std::vector<Mean> means_;
-    LatticeTable<std::uint32_t> components_;
+    /// Of every other octave from minOctave on: those of one are the blocks of the one
+    /// before, and the cells between hold what their children do.
+    CellBlocks cells_;
+    LatticeTable<std::uint32_t> more_;  ///< means beyond the first in smallest cells
 };
 
 }  // namespace hgmm

@@ -31,11 +31,23 @@ ViewDirections viewDirectionsOfLevel(const ComponentStore& base,
 
 }  // namespace
 
+/// A component's mean as its index has it, which is that of its row before the change.
+Eigen::Vector3f QueryCache::Indices::mean(std::uint32_t i) const {
+    const ComponentIndex::Factor& factor = components.factor(i);
+    return {factor.mean(0), factor.mean(1), factor.mean(2)};
+}
+
 void QueryCache::Indices::update(const Mixture<3>& base, std::uint32_t i) {
+    const Eigen::Vector3f now(base.mean[0][i], base.mean[1][i], base.mean[2][i]);
+    if (i < components.size()) {
+        const Eigen::Vector3f before = mean(i);
+        grid.move(i, before, now);
+        pyramid.move(before, now);
+    } else {
+        grid.add(i, now);
+        pyramid.add(now);
+    }
     components.update(base, i);
-    const Eigen::Vector3d mean(base.mean[0][i], base.mean[1][i], base.mean[2][i]);
-    grid.update(i, mean);
-    pyramid.update(i, mean);
 }
 
 std::size_t QueryCache::Level::liveBytes() const {
@@ -49,9 +61,11 @@ std::size_t QueryCache::Level::liveBytes() const {
 }
 
 void QueryCache::Indices::truncate(std::size_t n) {
+    for (auto i = static_cast<std::uint32_t>(components.size()); i-- > n;) {
+        grid.remove(i, mean(i));
+        pyramid.remove(mean(i));
+    }
     components.truncate(n);
-    grid.truncate(n);
-    pyramid.truncate(n);
 }
 
 const QueryCache::Indices& QueryCache::indices() const {
@@ -61,7 +75,6 @@ const QueryCache::Indices& QueryCache::indices() const {
         made->pyramid =
             SurfacePyramid(FreeSpace::pyramidOctave(model_.params.occupancy.freeSpace));
         made->components.reserve(base.size());
-        made->pyramid.reserve(base.size());
         for (std::uint32_t i = 0; i < base.size(); ++i) made->update(base, i);
         return made;
     });

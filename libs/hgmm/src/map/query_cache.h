@@ -59,6 +59,7 @@ class QueryCache {
         CoarseGrid grid;
         SurfacePyramid pyramid;
 
+        Eigen::Vector3f mean(std::uint32_t i) const;
         void update(const Mixture<3>& base, std::uint32_t i);
         void truncate(std::size_t n);
     };

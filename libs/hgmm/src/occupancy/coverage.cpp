@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int32_t kInBlock = (1 << Coverage::kBlockShift) - 1;
 constexpr unsigned kAllCorners = 255;
-constexpr auto kAllCells = ~Coverage::Word{0};
+constexpr Coverage::Word kAllCells = CellBlocks::kAllCells;
 
 /// Cells are at least this many spacings of rays wide, so that a sparse sensor leaves no
 /// gaps, but for its sake no wider than the gap that is bridged: things hide in wider ones.
@@ -24,11 +24,6 @@ constexpr double kNearest_m = 0.5;
 Coverage::Word bitOf(std::int32_t x, std::int32_t y, std::int32_t z) {
     const auto bit = (x & kInBlock) | (y & kInBlock) << 2 | (z & kInBlock) << 4;
     return Coverage::Word{1} << static_cast<unsigned>(bit);
-}
-
-LatticeCell blockOf(const LatticeCell& cell) {
-    constexpr int shift = Coverage::kBlockShift;
-    return {cell.octave, cell.x >> shift, cell.y >> shift, cell.z >> shift};
 }
 
 Eigen::Vector3d centreOf(const LatticeCell& cell) {
@@ -52,12 +47,12 @@ class CellRange {
     CellRange(const LatticeCell& low, const LatticeCell& high) : low_(low), high_(high) {}
 
     double blockCount() const {
-        const LatticeCell a = blockOf(low_), b = blockOf(high_);
+        const LatticeCell a = CellBlocks::blockOf(low_), b = CellBlocks::blockOf(high_);
         return (1.0 + b.x - a.x) * (1.0 + b.y - a.y) * (1.0 + b.z - a.z);
     }
     template <typename Visitor>
     void forEachBlock(Visitor&& visit) const {
-        const LatticeCell a = blockOf(low_), b = blockOf(high_);
+        const LatticeCell a = CellBlocks::blockOf(low_), b = CellBlocks::blockOf(high_);
         for (std::int32_t x = a.x; x <= b.x; ++x)
             for (std::int32_t y = a.y; y <= b.y; ++y)
                 for (std::int32_t z = a.z; z <= b.z; ++z)
@@ -118,17 +113,14 @@ class CellSegment {
 }  // namespace
 
 void Coverage::mark(const LatticeCell& block, Word cells) {
-    if (cells == 0) return;
-    const auto [word, isNew] = blocks_.tryEmplace(block, 0);
-    *word |= cells;
-    if (!isNew) return;
+    if (cells == 0 || !blocks_.mark(block, cells)) return;
     const auto place = std::lower_bound(octaves_.begin(), octaves_.end(), block.octave);
     if (place == octaves_.end() || *place != block.octave)
         octaves_.insert(place, block.octave);
 }
 
 void Coverage::mark(const LatticeCell& cell) {
-    mark(blockOf(cell), bitOf(cell.x, cell.y, cell.z));
+    mark(CellBlocks::blockOf(cell), bitOf(cell.x, cell.y, cell.z));
 }
 
 void Coverage::markSegment(int octave, const Eigen::Vector3d& from,
@@ -184,7 +176,7 @@ void Coverage::markRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& end
 }
 
 unsigned Coverage::corners(const LatticeCell& low) const {
-    const LatticeCell block = blockOf(low);
+    const LatticeCell block = CellBlocks::blockOf(low);
     const std::int32_t local[3] = {low.x & kInBlock, low.y & kInBlock, low.z & kInBlock};
     // Axes along which the upper cells lie in the next block.
     unsigned crossed = 0;

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/lattice_table.h"
 #include "hgmm/params.h"
 #include "hgmm/scan.h"
+#include "index/cell_blocks.h"
 
 namespace hgmm {
 
@@ -19,8 +19,8 @@ namespace hgmm {
 class Coverage {
  public:
     /// The cells of one block; bit x + 4 y + 16 z is the cell (x, y, z) in it.
-    using Word = std::uint64_t;
-    static constexpr int kBlockShift = 2;
+    using Word = CellBlocks::Word;
+    static constexpr int kBlockShift = CellBlocks::kShift;
 
     /// What the rays of one scan have in common.
     class Rays {
@@ -74,10 +74,7 @@ class Coverage {
         blocks_.forEach(visit);
     }
     /// The cells of a block; none where there is no such block.
-    Word word(const LatticeCell& block) const {
-        const Word* const found = blocks_.find(block);
-        return found != nullptr ? *found : 0;
-    }
+    Word word(const LatticeCell& block) const { return blocks_.word(block); }
     /// Marks cells of a block.
     void mark(const LatticeCell& block, Word cells);
     void mark(const LatticeCell& cell);
@@ -94,7 +91,7 @@ class Coverage {
     Word withoutCovered(const LatticeCell& block, Word word) const;
     void markSegment(int octave, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
-    LatticeTable<Word> blocks_;
+    CellBlocks blocks_;
     std::vector<int> octaves_;
 };
 
