@@ -93,7 +93,7 @@ std::optional<RayHit> Map::castRay(const Eigen::Vector3d& origin_map,
             "Map::castRay: needs a finite origin and a finite direction other than zero");
     if (empty()) return std::nullopt;
     std::optional<RayHit> hit = state_->cache.occupancy(level).castRay(
-        origin_map - origin(), direction_map / length, params, state_->cache.index(level));
+        origin_map - origin(), direction_map / length, params);
     if (hit) hit->point_map += origin();
     return hit;
 }

@@ -167,9 +167,10 @@ std::unique_ptr<OccupancyModel> QueryCache::makeOccupancy(std::size_t level) con
         isBase ? model_.components.viewDirections() : viewDirections(level);
     const Mixture<4>& free = isBase ? model_.freeSpace.mixture() : freeMixture(level);
     const Coverage& coverage = isBase ? model_.coverage : this->coverage(level);
-    auto made = std::make_unique<OccupancyModel>(model_.params.occupancy, coverage);
-    for (std::uint32_t i = 0; i < surfaces.size(); ++i)
-        made->updateSurface(i, surfaces[i], views[i]);
+    auto made = std::make_unique<OccupancyModel>(
+        model_.params.occupancy, OccupancyModel::Surfaces{surfaces, views, index(level)},
+        coverage);
+    for (std::uint32_t i = 0; i < surfaces.size(); ++i) made->updateSurface(i);
     for (std::uint32_t i = 0; i < free.size(); ++i) made->updateFree(i, free[i]);
     return made;
 }
@@ -190,8 +191,7 @@ void QueryCache::apply(const Changes& changes,
     levels->front()->patches3D.reset();
     if (OccupancyModel* base = levels->front()->occupancy.value()) {
         base->truncateSurfaces(changes.size);
-        for (const std::uint32_t i : changes.updated)
-            base->updateSurface(i, store.surfaces()[i], store.viewDirections()[i]);
+        for (const std::uint32_t i : changes.updated) base->updateSurface(i);
         for (const std::uint32_t i : updatedFree)
             base->updateFree(i, model_.freeSpace.mixture()[i]);
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/dual.h"
+#include "base/growth.h"
 #include "hgmm/params.h"
 
 namespace hgmm {
@@ -44,8 +45,10 @@ float peakOf(double support, const WhitenedGaussian<3, float>& g) {
 
 }  // namespace
 
-OccupancyModel::OccupancyModel(const OccupancyParams& params, const Coverage& coverage)
+OccupancyModel::OccupancyModel(const OccupancyParams& params, const Surfaces& surfaces,
+                               const Coverage& coverage)
     : params_(params),
+      surfaces_(surfaces),
       coverage_(coverage),
       unknownDensity_(static_cast<float>(std::exp(-0.5 * square(params.knownSigmas)))),
       sharpness_(square(params.knownSigmas / params.extentSigmas)) {
@@ -85,42 +88,46 @@ BoxCells::Box OccupancyModel::reachOf(const Gaussian<4>& component) {
     return boxAround(mean, mean, ellipsoidExtent(component));
 }
 
-void OccupancyModel::updateSurface(std::uint32_t i, const Gaussian<3>& surface,
-                                   const ViewDirection& view) {
-    Band band;
-    band.whitened = WhitenedGaussian<3, float>(surface);
-    band.peak = peakOf(surface.support, band.whitened);
+std::array<float, 3> OccupancyModel::whitenedView(std::uint32_t i) const {
+    const Factor& factor = surfaces_.index.factor(i);
+    const ViewDirection view = surfaces_.views[i];
+    std::array<float, 3> v{};
     for (int row = 0; row < 3; ++row)
         for (int col = 0; col <= row; ++col)
-            band.v[row] +=
-                band.whitened.factor(row, col) * static_cast<float>(view.direction[col]);
+            v[row] += factor.factor(row, col) * static_cast<float>(view.direction[col]);
+    return v;
+}
+
+OccupancyModel::Band OccupancyModel::bandOf(std::uint32_t i) const {
+    const double range_m = surfaces_.views[i].range_m;
+    Band band;
+    band.peak = peakOf(surfaces_.rows.support[i], surfaces_.index.factor(i));
+    band.v = whitenedView(i);
     for (const float v : band.v) band.viewPrecision += v * v;
     if (band.viewPrecision > 0) band.tau_m = 1.F / std::sqrt(band.viewPrecision);
-    band.width_m = static_cast<float>(params_.band.width(view.range_m));
-    band.reach_m = static_cast<float>(params_.band.reach(view.range_m));
-    for (int d = 0; d < 3; ++d) band.view[d] = static_cast<float>(view.direction[d]);
-    band.side_m = sideOf(params_, view);
-    band.freePerMetre = static_cast<float>(params_.band.freePerMetre(view.range_m));
+    band.width_m = static_cast<float>(params_.band.width(range_m));
+    band.reach_m = static_cast<float>(params_.band.reach(range_m));
+    band.freePerMetre = static_cast<float>(params_.band.freePerMetre(range_m));
+    return band;
+}
 
-    if (i == bands_.size()) bands_.emplace_back();
-    bands_.at(i) = band;
-    boxes_.resize(bands_.size());
-    const BoxCells::Box box = reachOf(params_, surface, view);
-    bandBoxes_.update(i, box, boxes_[i].centre);
+void OccupancyModel::updateSurface(std::uint32_t i) {
+    const BoxCells::Box box = reachOf(params_, surfaces_.rows[i], surfaces_.views[i]);
+    if (i == boxes_.size()) growTo(boxes_, i + std::size_t{1});
+    bandBoxes_.update(i, box, boxes_.at(i).centre);
     boxes_[i] = box;
     bounds_.reset();
 }
 
 void OccupancyModel::truncateSurfaces(std::size_t n) {
     bandBoxes_.truncate(n, [this](std::uint32_t i) { return boxes_[i].centre; });
-    if (bands_.size() <= n) return;
-    bands_.resize(n);
+    if (boxes_.size() <= n) return;
     boxes_.resize(n);
     bounds_.reset();
 }
 
 void OccupancyModel::updateFree(std::uint32_t i, const Gaussian<4>& component) {
-    if (i == freeJoints_.size()) freeJoints_.emplace_back();
+    if (i == freeJoints_.size()) growTo(freeJoints_, i + std::size_t{1});
     Joint& joint = freeJoints_.at(i);
     freeBoxes_.update(i, reachOf(component),
                       {joint.place.mean(0), joint.place.mean(1), joint.place.mean(2)});
@@ -175,7 +182,7 @@ Eigen::Vector3d OccupancyModel::gradient(const Eigen::Vector3d& point) const {
 }
 
 std::size_t OccupancyModel::liveBytes() const {
-    return bands_.capacity() * sizeof(Band) + freeJoints_.capacity() * sizeof(Joint) +
+    return freeJoints_.capacity() * sizeof(Joint) +
            boxes_.capacity() * sizeof(BoxCells::Box) + bandBoxes_.liveBytes() +
            freeBoxes_.liveBytes();
 }

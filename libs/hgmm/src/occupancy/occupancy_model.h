@@ -7,6 +7,7 @@
 #include "base/lazy.h"
 #include "hgmm/gaussian.h"
 #include "hgmm/joint_moments.h"
+#include "hgmm/mixture.h"
 #include "hgmm/occupancy.h"
 #include "hgmm/regression.h"
 #include "hgmm/view_directions.h"
@@ -40,9 +41,16 @@ class OccupancyModel {
     /// Components are felt up to this distance [sigma].
     static constexpr double kSigmas = kReachSigmas;
 
-    /// @param coverage read whenever asked; must outlive the model
+    /// The surface components of the level.
+    struct Surfaces {
+        const Mixture<3>& rows;
+        const ViewDirections& views;
+        const ComponentIndex& index;  ///< has the rows' factors; of kSigmas
+    };
+    /// @param surfaces, coverage read whenever asked; must outlive the model
     /// Throws std::invalid_argument naming the field.
-    OccupancyModel(const OccupancyParams& params, const Coverage& coverage);
+    OccupancyModel(const OccupancyParams& params, const Surfaces& surfaces,
+                   const Coverage& coverage);
 
     /// Answers depend on a component only at points that a BoxIndex with this box leads to.
     static BoxCells::Box reachOf(const OccupancyParams& params, const Gaussian<3>& surface,
@@ -52,9 +60,9 @@ class OccupancyModel {
     static Eigen::Vector3d beyond(const OccupancyParams& params, const Gaussian<3>& surface,
                                   const ViewDirection& view);
 
-    /// Enters or re-enters surface component i <= number of those entered.
-    void updateSurface(std::uint32_t i, const Gaussian<3>& surface,
-                       const ViewDirection& view);
+    /// Enters or re-enters surface component i <= number of those entered, as its row is
+    /// now.
+    void updateSurface(std::uint32_t i);
     /// Drops surface components n, n + 1, ...
     void truncateSurfaces(std::size_t n);
     /// Enters or re-enters free component i <= number of those entered.
@@ -65,24 +73,22 @@ class OccupancyModel {
     /// Gradient of Occupancy::occupied [1/m].
     Eigen::Vector3d gradient(const Eigen::Vector3d& point) const;
     /// As Map::castRay. `direction` is a unit vector.
-    /// @param surfaces index of the components that were entered, of kSigmas
     std::optional<RayHit> castRay(const Eigen::Vector3d& origin,
                                   const Eigen::Vector3d& direction,
-                                  const RayCastParams& params,
-                                  const ComponentIndex& surfaces) const;
+                                  const RayCastParams& params) const;
 
     std::size_t liveBytes() const;
 
  private:
-    /// A surface component with its band, whitened: v is its view.
+    using Factor = ComponentIndex::Factor;
+
+    /// The band of a surface component, made of its rows when asked. Stored, bands would
+    /// take more memory than the rows themselves.
     struct Band {
-        WhitenedGaussian<3, float> whitened;
-        std::array<float, 3> v{};     ///< zero without a view
-        float viewPrecision = 0.F;    ///< |v|^2 = u^T Sigma^-1 u [1/m^2]
-        float tau_m = 0.F;            ///< 1 / |v|, thickness along the view
-        std::array<float, 3> view{};  ///< unit vector
+        std::array<float, 3> v{};   ///< its view, whitened; zero without a view
+        float viewPrecision = 0.F;  ///< |v|^2 = u^T Sigma^-1 u [1/m^2]
+        float tau_m = 0.F;          ///< 1 / |v|, thickness along the view
         float width_m = 0.F, reach_m = 0.F;
-        float side_m = 0.F;  ///< so far to each side it tells which side a point is on
         float freePerMetre = 0.F;
         float peak = 0.F;  ///< support times density at the mean [1/m^3]
 
@@ -137,15 +143,19 @@ class OccupancyModel {
     Sums<double> sums(const double* x) const;
     void addBands(const std::uint32_t* ids, int n, const float* point, const float* rest,
                   Sums<double>& sums) const;
-    void gatherPlace(const Band& band, bands::Lanes& lanes, int k) const;
+    Band bandOf(std::uint32_t i) const;
+    /// A component's view, whitened.
+    std::array<float, 3> whitenedView(std::uint32_t i) const;
+    void gatherPlace(std::uint32_t i, bands::Lanes& lanes, int k) const;
     void gatherBand(const Band& band, bands::Lanes& lanes, int k) const;
     void addFree(const std::uint32_t* ids, float* squared, int n, const double* x,
                  Sums<double>& sums) const;
     template <typename T>
     Answer<T> answer(const T* x) const;
-    void addBand(const Band& band, const Dual* x, Sums<Dual>& sums) const;
+    void addBand(std::uint32_t i, const Dual* x, Sums<Dual>& sums) const;
     template <typename T>
-    void addSide(const Band& band, const T& height, const T& beside, Sides<T>& sides) const;
+    void addSide(std::uint32_t i, float viewPrecision, const T& height, const T& beside,
+                 Sides<T>& sides) const;
     void addFree(const Joint& joint, const Dual* x, Sums<Dual>& sums) const;
     /// First and last distance at which the line from `start` along `direction` may meet a
     /// surface; the first is beyond the last if there is none.
@@ -153,7 +163,7 @@ class OccupancyModel {
                                         const Eigen::Vector3d& direction) const;
     std::vector<Interval> intervals(const Eigen::Vector3d& origin,
                                     const Eigen::Vector3d& direction, double from_m,
-                                    double to_m, const ComponentIndex& surfaces) const;
+                                    double to_m) const;
     std::optional<double> firstOccupied(const Eigen::Vector3d& origin,
                                         const Eigen::Vector3d& direction,
                                         const Interval& interval, double minOccupied) const;
@@ -165,10 +175,10 @@ class OccupancyModel {
     static float sideOf(const OccupancyParams& params, const ViewDirection& view);
 
     OccupancyParams params_;
+    const Surfaces surfaces_;
     const Coverage& coverage_;
     double unknownDensity_;  ///< k
     double sharpness_;       ///< of extents against thickness
-    std::vector<Band> bands_;
     std::vector<Joint> freeJoints_;
     std::vector<BoxCells::Box> boxes_;  ///< of bands, kSigmas to each side
     BoxIndex<0> bandBoxes_;             ///< who is in boxes_

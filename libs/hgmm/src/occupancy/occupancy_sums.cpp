@@ -53,10 +53,11 @@ Eigen::Vector3d OccupancyModel::beyond(const OccupancyParams& params,
 }
 
 template <typename T>
-void OccupancyModel::addSide(const Band& band, const T& height, const T& beside,
-                             Sides<T>& sides) const {
+void OccupancyModel::addSide(std::uint32_t i, float viewPrecision, const T& height,
+                             const T& beside, Sides<T>& sides) const {
     const bool isFront = valueOf(height) > 0;
-    const double tau = 1.0 / std::sqrt(double(band.viewPrecision)), end = band.side_m;
+    const ViewDirection view = surfaces_.views[i];
+    const double tau = 1.0 / std::sqrt(double(viewPrecision)), end = sideOf(params_, view);
     const T distance = isFront ? height : -1.0 * height;
     const T over = 1.0 - ramp(beside, kTileSigmas2, square(params_.extentSigmas));
     const T side =
@@ -64,18 +65,23 @@ void OccupancyModel::addSide(const Band& band, const T& height, const T& beside,
     if (!(valueOf(side) > 0)) return;
     if (isFront) return sides.addFront(side);
     double beyond[3];
-    for (int d = 0; d < 3; ++d)
-        beyond[d] = double(band.whitened.mean(d)) - kBeyond * end * double(band.view[d]);
-    sides.addBehind(side, band.view, coverage_.at(beyond));
+    std::array<float, 3> direction{};
+    for (int d = 0; d < 3; ++d) {
+        beyond[d] = double(surfaces_.rows.mean[d][i]) - kBeyond * end * view.direction[d];
+        direction[d] = static_cast<float>(view.direction[d]);
+    }
+    sides.addBehind(side, direction, coverage_.at(beyond));
 }
 
-void OccupancyModel::addBand(const Band& band, const Dual* x, Sums<Dual>& sums) const {
+void OccupancyModel::addBand(std::uint32_t i, const Dual* x, Sums<Dual>& sums) const {
+    const Factor& factor = surfaces_.index.factor(i);
+    const Band band = bandOf(i);
     Dual whitened[3];
     for (int row = 0; row < 3; ++row) {
         whitened[row] = 0.0;
         for (int col = 0; col <= row; ++col)
-            whitened[row] += double(band.whitened.factor(row, col)) *
-                             (x[col] - double(band.whitened.mean(col)));
+            whitened[row] +=
+                double(factor.factor(row, col)) * (x[col] - double(factor.mean(col)));
     }
     const Dual squared = square(whitened[0]) + square(whitened[1]) + square(whitened[2]);
     const double precision = band.viewPrecision;
@@ -103,7 +109,7 @@ void OccupancyModel::addBand(const Band& band, const Dual* x, Sums<Dual>& sums) 
                       (tau * kSqrtTwoPi * double(band.freePerMetre)) * fall;
     sums.occupied += double(band.peak) * column * hit;
     sums.known += tapered(exp(-0.5 * sharpness_ * beside) * hit);
-    addSide(band, t, beside, sums.sides);
+    addSide(i, band.viewPrecision, t, beside, sums.sides);
 
     // W is 0 for hits, and N(t, tau^2) cut to [0, reach] for free points.
     const double z = valueOf(mass), a = valueOf(low), b = valueOf(high);
@@ -143,7 +149,7 @@ OccupancyModel::Sums<Dual> OccupancyModel::sums(const Dual* x) const {
                             static_cast<float>(x[2].value)};
     Sums<Dual> sums;
     bandBoxes_.visitCandidates(point[0], point[1], point[2], [&](std::uint32_t i) {
-        if (isInside(boxes_[i], point)) addBand(bands_[i], x, sums);
+        if (isInside(boxes_[i], point)) addBand(i, x, sums);
     });
     freeBoxes_.visitCandidates(point[0], point[1], point[2],
                                [&](std::uint32_t i) { addFree(freeJoints_[i], x, sums); });
@@ -189,16 +195,19 @@ void OccupancyModel::addBands(const std::uint32_t* ids, int n, const float* poin
     static thread_local bands::Lanes near{}, felt{};
     static thread_local bands::Places places{};
     static thread_local bands::Densities densities{};
-    for (int k = 0; k < n; ++k) gatherPlace(bands_[ids[k]], near, k);
+    for (int k = 0; k < n; ++k) gatherPlace(ids[k], near, k);
     bands::kernel().place(near, n, point, rest, places);
 
     std::uint32_t feltIds[bands::kBlock];
+    float viewPrecision[bands::kBlock];
     int count = 0;
     for (int k = 0; k < n; ++k) {
         if (!(places.beside[k] <= float(kReach2))) continue;
         places.beside[count] = places.beside[k];
         places.height[count] = places.height[k];
-        gatherBand(bands_[ids[k]], felt, count);
+        const Band band = bandOf(ids[k]);
+        gatherBand(band, felt, count);
+        viewPrecision[count] = band.viewPrecision;
         feltIds[count++] = ids[k];
     }
     bands::kernel().evaluate(felt, places, count, float(kCutDensity), densities);
@@ -209,19 +218,25 @@ void OccupancyModel::addBands(const std::uint32_t* ids, int n, const float* poin
                         double(densities.meanSquaredW[k]));
         sums.passed.add(double(densities.freePassed[k]), double(densities.meanW[k]),
                         double(densities.meanSquaredW[k]));
-        addSide(bands_[feltIds[k]], double(places.height[k]), double(places.beside[k]),
-                sums.sides);
+        addSide(feltIds[k], viewPrecision[k], double(places.height[k]),
+                double(places.beside[k]), sums.sides);
     }
 }
 
 /// What bands::Kernel::place reads.
-void OccupancyModel::gatherPlace(const Band& band, bands::Lanes& lanes, int k) const {
-    for (int d = 0; d < 3; ++d) lanes.mean[d][k] = band.whitened.mean(d);
+void OccupancyModel::gatherPlace(std::uint32_t i, bands::Lanes& lanes, int k) const {
+    const Factor& factor = surfaces_.index.factor(i);
+    for (int d = 0; d < 3; ++d) lanes.mean[d][k] = factor.mean(d);
     for (int row = 0, entry = 0; row < 3; ++row)
         for (int col = 0; col <= row; ++col)
-            lanes.factor[entry++][k] = band.whitened.factor(row, col);
-    for (int d = 0; d < 3; ++d) lanes.view[d][k] = band.v[d];
-    lanes.precision[k] = band.hasView() ? band.viewPrecision : 1.F;
+            lanes.factor[entry++][k] = factor.factor(row, col);
+    const std::array<float, 3> v = whitenedView(i);
+    float precision = 0.F;
+    for (int d = 0; d < 3; ++d) {
+        lanes.view[d][k] = v[d];
+        precision += v[d] * v[d];
+    }
+    lanes.precision[k] = precision > 0 ? precision : 1.F;
 }
 
 /// What bands::Kernel::evaluate reads. Without a view all of the distance is beside.

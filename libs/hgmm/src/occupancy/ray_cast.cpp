@@ -43,18 +43,18 @@ std::pair<double, double> OccupancyModel::spanAlong(
 
 std::vector<OccupancyModel::Interval> OccupancyModel::intervals(
     const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double from_m,
-    double to_m, const ComponentIndex& surfaces) const {
+    double to_m) const {
     std::vector<std::uint32_t> near;
     const Eigen::Vector3f start = (origin + from_m * direction).cast<float>();
     const Eigen::Vector3f along = direction.cast<float>();
-    surfaces.visitAlongRay(start.data(), along.data(), float(to_m - from_m),
-                           [&](std::uint32_t i) { near.push_back(i); });
+    surfaces_.index.visitAlongRay(start.data(), along.data(), float(to_m - from_m),
+                                  [&](std::uint32_t i) { near.push_back(i); });
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
 
     std::vector<Interval> found;
     for (const std::uint32_t i : near) {
-        const WhitenedGaussian<3, float>& w = bands_[i].whitened;
+        const Factor& w = surfaces_.index.factor(i);
         double dd = 0, od = 0, oo = 0;
         for (int row = 0; row < 3; ++row) {
             double d = 0, o = 0;
@@ -107,15 +107,14 @@ std::optional<double> OccupancyModel::firstOccupied(const Eigen::Vector3d& origi
 
 std::optional<RayHit> OccupancyModel::castRay(const Eigen::Vector3d& origin,
                                               const Eigen::Vector3d& direction,
-                                              const RayCastParams& params,
-                                              const ComponentIndex& surfaces) const {
+                                              const RayCastParams& params) const {
     const auto [first, last] = spanAlong(origin, direction);
     const double end = std::min(params.maxRange_m, last);
     double best = std::numeric_limits<double>::infinity();
     double from = std::max(0.0, first), length = kFirstChunk_m;
     for (; from < end && std::isinf(best); from += length, length *= 2)
         for (const Interval& interval :
-             intervals(origin, direction, from, std::min(end, from + length), surfaces)) {
+             intervals(origin, direction, from, std::min(end, from + length))) {
             if (interval.start_m >= best) break;
             const auto range =
                 firstOccupied(origin, direction, interval, params.minOccupied);
