@@ -31,6 +31,8 @@ HGMM_EXPORT ViewDirection viewFrom(const Eigen::Vector3d& sensorOrigin,
 class HGMM_EXPORT ViewDirections {
  public:
     std::size_t size() const { return range_.size(); }
+    /// Makes room for n views in all.
+    void reserve(std::size_t n);
     void pushBack(const ViewDirection& view);
     /// Overwrites view i < size().
     void set(std::size_t i, const ViewDirection& view);

@@ -25,6 +25,10 @@ ViewDirection viewFrom(const Eigen::Vector3d& sensorOrigin, const Eigen::Vector3
     return view;
 }
 
+void ViewDirections::reserve(std::size_t n) {
+    forEachArray([n](std::vector<float>& array) { array.reserve(n); });
+}
+
 void ViewDirections::pushBack(const ViewDirection& view) {
     for (auto& axis : direction_) axis.push_back(0.F);
     range_.push_back(0.F);

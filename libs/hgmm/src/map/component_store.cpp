@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/growth.h"
+
 namespace hgmm {
 
 ComponentStore::ComponentStore(Mixture<3> surfaces, ViewDirections viewDirections)
@@ -14,6 +16,10 @@ ComponentStore::ComponentStore(Mixture<3> surfaces, ViewDirections viewDirection
 
 std::uint32_t ComponentStore::add(const Gaussian<3>& component, const ViewDirection& view) {
     const auto i = static_cast<std::uint32_t>(size());
+    if (i == surfaces_.support.capacity()) {
+        surfaces_.reserve(roomFor(i + std::size_t{1}));
+        viewDirections_.reserve(roomFor(i + std::size_t{1}));
+    }
     surfaces_.pushBack(component);
     viewDirections_.pushBack(view);
     updated_.push_back(i);

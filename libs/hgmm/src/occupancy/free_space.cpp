@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/growth.h"
 #include "hgmm/params.h"
 #include "mixture/regularized.h"
 
@@ -140,11 +141,10 @@ std::uint32_t FreeSpace::merge(Gaussian<4> component, int octave) {
 
 std::uint32_t FreeSpace::add(const Gaussian<4>& component, const LatticeCell& cell) {
     const auto [number, isNew] =
-        componentOf_.tryEmplace(cell, static_cast<std::uint32_t>(cells_.size()));
+        componentOf_.tryEmplace(cell, static_cast<std::uint32_t>(octaves_.size()));
     const std::uint32_t i = *number;
     if (isNew) {
-        cells_.push_back(cell);
-        mixture_.pushBack(regularized(keptInside(component, cell)));
+        append(regularized(keptInside(component, cell)), cell);
     } else {
         mixture_.set(i,
                      regularized(keptInside(mergeMoments(mixture_[i], component), cell)));
@@ -155,8 +155,8 @@ std::uint32_t FreeSpace::add(const Gaussian<4>& component, const LatticeCell& ce
 Mixture<4> FreeSpace::coarsened(int times) const {
     LatticeTable<std::uint32_t> numbers;
     std::vector<Gaussian<4>> merged;
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-        LatticeCell cell = cells_[i];
+    for (std::size_t i = 0; i < mixture_.size(); ++i) {
+        LatticeCell cell = LatticeCell::at(mixture_[i].mean.head<3>(), octave(i));
         std::int32_t* const axes[3] = {&cell.x, &cell.y, &cell.z};
         for (int t = 0; t < times; ++t) *axes[t % 3] >>= 1;
         const auto [number, isNew] =
@@ -174,20 +174,27 @@ Mixture<4> FreeSpace::coarsened(int times) const {
 
 void FreeSpace::reserve(std::size_t n) {
     mixture_.reserve(n);
-    cells_.reserve(n);
+    octaves_.reserve(n);
     componentOf_.reserve(n);
 }
 
 void FreeSpace::pushBack(const Gaussian<4>& component, int octave) {
     const LatticeCell cell = LatticeCell::at(component.mean.head<3>(), octave);
-    componentOf_.tryEmplace(cell, static_cast<std::uint32_t>(cells_.size()));
-    cells_.push_back(cell);
+    componentOf_.tryEmplace(cell, static_cast<std::uint32_t>(octaves_.size()));
+    append(component, cell);
+}
+
+void FreeSpace::append(const Gaussian<4>& component, const LatticeCell& cell) {
+    if (mixture_.size() == mixture_.support.capacity())
+        mixture_.reserve(roomFor(mixture_.size() + 1));
     mixture_.pushBack(component);
+    growTo(octaves_, mixture_.size());
+    octaves_.back() = static_cast<std::int8_t>(cell.octave);
 }
 
 std::size_t FreeSpace::liveBytes() const {
     return mixture_.support.capacity() * sizeof(float) * (1 + 4 + Mixture<4>::packed) +
-           cells_.capacity() * sizeof(LatticeCell) + componentOf_.liveBytes();
+           octaves_.capacity() + componentOf_.liveBytes();
 }
 
 }  // namespace hgmm

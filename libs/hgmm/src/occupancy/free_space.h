@@ -43,7 +43,7 @@ class FreeSpace {
 
     const Mixture<4>& mixture() const { return mixture_; }
     /// Octave of the cell of component i: its edge is 2^octave m.
-    int octave(std::size_t i) const { return cells_[i].octave; }
+    int octave(std::size_t i) const { return octaves_[i]; }
     /// The mixture with pairs of neighbouring cells merged, `times` times over, each time
     /// along the next axis.
     Mixture<4> coarsened(int times) const;
@@ -55,16 +55,17 @@ class FreeSpace {
 
     std::size_t liveBytes() const;
     bool operator==(const FreeSpace& o) const {
-        return mixture_ == o.mixture_ && cells_ == o.cells_;
+        return mixture_ == o.mixture_ && octaves_ == o.octaves_;
     }
 
  private:
     /// Adds a component, whose mean lies in the cell and is one of floats, to the cell's.
     /// Returns which component it became.
     std::uint32_t add(const Gaussian<4>& component, const LatticeCell& cell);
+    void append(const Gaussian<4>& component, const LatticeCell& cell);
 
     Mixture<4> mixture_;
-    std::vector<LatticeCell> cells_;
+    std::vector<std::int8_t> octaves_;  ///< of cells, which are around the means
     LatticeTable<std::uint32_t> componentOf_;
 };
 
