@@ -33,7 +33,9 @@ rows() {
                 f["tpr_at_fpr_5pct"], figure("brier"), figure("ece"), f["unknown_share_hit"],
                 f["unknown_share_free"], f["unknown_share_near"], kb, f["scan_ms_median"])
             ms[n] = f["scan_ms_median"]
-            more[n] = sprintf(" %.0f | %.0f |", f["bytes_live"] / 1000, f["queries_per_s"])
+            more[n] = sprintf(" %.0f | %s | %.0f |", f["bytes_live"] / 1000,
+                ("bytes_serialized" in f) ? sprintf("%.1f", f["bytes_live"] / f["bytes_serialized"]) : "-",
+                f["queries_per_s"])
             more[n] = more[n] (("components_surface" in f) ? sprintf(" %d / %d | %.2f | %.3f | %.2f / %.2f | %.2f |",
                 f["components_surface"], f["components_free"], f["loglik_hit"], f["f1_5cm"],
                 100 * f["unseen_called_free_behind_hits"], 100 * f["unseen_called_free_in_box"],
@@ -64,8 +66,8 @@ import lidar16_room_sim pcd "$data/lidar16_room_sim" --poses "$data/lidar16_room
 import sim_structured pcd "$data/la3dm_sim/sim_structured" --world-frame
 import sim_unstructured pcd "$data/la3dm_sim/sim_unstructured" --world-frame
 
-echo '| recording | map | AUC uniform | AUC near | balanced accuracy | TPR at 5 % FPR | Brier | ECE | unknown: hits / uniform / near | KB | ms/scan | ratio to OctoMap | heap KB | queries/s | components surface / free | log-likelihood | F1 at 5 cm | unseen called free behind hits / in box % | seen called unknown % |'
-echo '|'"$(printf ' --- |%.0s' {1..19})"
+echo '| recording | map | AUC uniform | AUC near | balanced accuracy | TPR at 5 % FPR | Brier | ECE | unknown: hits / uniform / near | KB | ms/scan | ratio to OctoMap | heap KB | heap / saved | queries/s | components surface / free | log-likelihood | F1 at 5 cm | unseen called free behind hits / in box % | seen called unknown % |'
+echo '|'"$(printf ' --- |%.0s' {1..20})"
 replay rgbd_kitchen --split 10 --baselines octomap,grid3d,ndt-om,gpoctomap,ndt,nn
 replay livox_building --split 5 --baselines octomap,grid3d,ndt-om,gpoctomap,ndt,nn
 sim=(--holdout-points 0.2 --free-band 0,0.2 --baselines octomap:0.15,ndt-om:0.2,gpoctomap:0.15,nn)

@@ -9,7 +9,7 @@ namespace hgmm::evaluation {
 /// Size of a map (protocol, step 5).
 struct Memory {
     std::optional<std::size_t> serialized_bytes;  ///< saved, before compression
-    std::size_t live_bytes = 0;                   ///< heap held, index and levels included
+    std::size_t live_bytes = 0;                   ///< heap held, ready for queries
 };
 
 /// What maps are compared by: saved, or as held in memory where they cannot be saved
@@ -18,6 +18,7 @@ inline std::size_t countedBytes(const Memory& memory) {
     return memory.serialized_bytes.value_or(memory.live_bytes);
 }
 
+/// Of a map whose base level answers queries.
 Memory memoryOf(const Map& map);
 
 /// Bytes of a component, with its view, in a map that is saved compactly (Map::save).
