@@ -13,10 +13,9 @@ namespace {
 using test::normal;
 using test::uniform;
 using Point = std::array<float, 3>;
-using Box = BoxCells::Box;
 
-Box randomBox(std::mt19937_64& engine) {
-    Box box;
+BoxCells::Box randomBox(std::mt19937_64& engine) {
+    BoxCells::Box box;
     const double size = std::exp(uniform(engine, std::log(1e-3), std::log(30.0)));
     for (int d = 0; d < 3; ++d) {
         box.centre[d] = static_cast<float>(uniform(engine, -20, 20));
@@ -25,7 +24,7 @@ Box randomBox(std::mt19937_64& engine) {
     return box;
 }
 
-bool holds(const Box& box, const Point& p) {
+bool holds(const BoxCells::Box& box, const Point& p) {
     for (int d = 0; d < 3; ++d)
         if (!(std::abs(p[d] - box.centre[d]) <= box.halfExtent[d])) return false;
     return true;
@@ -42,9 +41,9 @@ std::vector<std::uint32_t> candidates(const Index& index, const Point& p) {
 template <int kBlockShift>
 struct Pair {
     BoxIndex<kBlockShift> index;
-    std::vector<Box> boxes;
+    std::vector<BoxCells::Box> boxes;
 
-    void update(std::uint32_t i, const Box& box) {
+    void update(std::uint32_t i, const BoxCells::Box& box) {
         if (i == boxes.size()) boxes.emplace_back();
         index.update(i, box, boxes[i].centre);
         boxes[i] = box;
@@ -52,7 +51,7 @@ struct Pair {
     void removeSwap(std::uint32_t i) {
         index.truncate(boxes.size() - 1,
                        [this](std::uint32_t k) { return boxes[k].centre; });
-        const Box last = boxes.back();
+        const BoxCells::Box last = boxes.back();
         boxes.pop_back();
         if (i < boxes.size()) update(i, last);
     }
@@ -95,7 +94,7 @@ TEST(BoxIndex, BlocksOfAnySizeFindTheSameInTheSameOrder) {
     BoxIndex<0> single;
     BoxIndex<3> large;
     for (int i = 0; i < 1000; ++i) {
-        const Box box = randomBox(engine);
+        const BoxCells::Box box = randomBox(engine);
         single.add(box);
         large.add(box);
     }
@@ -173,7 +172,7 @@ TEST(BoxIndex, RefusesACentreThatWasElsewhere) {
 }
 
 /// Whether start + s direction, s in [0, length], meets the box.
-bool meets(const Box& box, const Eigen::Vector3f& start, const Eigen::Vector3f& u,
+bool meets(const BoxCells::Box& box, const Eigen::Vector3f& start, const Eigen::Vector3f& u,
            float length) {
     double enter = 0, leave = length;
     for (int d = 0; d < 3; ++d) {
@@ -207,7 +206,7 @@ TEST(BoxIndex, RaysMeetEveryBoxOnTheirWayInAllOctaves) {
                                  [&](std::uint32_t i) { found.insert(i); });
         for (std::uint32_t i = 0; i < pair.boxes.size(); ++i) {
             // Rays that only brush a box are rounding's to decide.
-            Box inner = pair.boxes[i];
+            BoxCells::Box inner = pair.boxes[i];
             for (float& e : inner.halfExtent) e = std::max(0.F, e - 1e-4F);
             if (*std::min_element(inner.halfExtent.begin(), inner.halfExtent.end()) <= 0)
                 continue;
