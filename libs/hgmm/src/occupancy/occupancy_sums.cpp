@@ -56,12 +56,14 @@ template <typename T>
 void OccupancyModel::addSide(std::uint32_t i, float viewPrecision, const T& height,
                              const T& beside, Sides<T>& sides) const {
     const bool isFront = valueOf(height) > 0;
-    const ViewDirection view = surfaces_.views[i];
-    const double tau = 1.0 / std::sqrt(double(viewPrecision)), end = sideOf(params_, view);
+    const double tau = 1.0 / std::sqrt(double(viewPrecision));
     const T distance = isFront ? height : -1.0 * height;
     const T over = 1.0 - ramp(beside, kTileSigmas2, square(params_.extentSigmas));
-    const T side =
-        over * ramp(distance, tau, 2 * tau) * (1.0 - ramp(distance, 0.8 * end, end));
+    const T off = over * ramp(distance, tau, 2 * tau);
+    if (!(valueOf(off) > 0)) return;
+    const ViewDirection view = surfaces_.views[i];
+    const double end = sideOf(params_, view);
+    const T side = off * (1.0 - ramp(distance, 0.8 * end, end));
     if (!(valueOf(side) > 0)) return;
     if (isFront) return sides.addFront(side);
     double beyond[3];
