@@ -20,8 +20,8 @@ constexpr SearchRadius kNearest{1.5, 0.5};
 /// With less of a scan found, or less than this share of what was found of the last one,
 /// mixtures are registered, in case the sensor is elsewhere [1].
 constexpr double kLittle = 0.45, kFallen = 0.75;
-/// A given map is not where the sensor is if it calls so many times as much of a scan free
-/// as it explains [1].
+/// A sensor is not where the map calls so many times as much of a scan free as it explains
+/// [1].
 constexpr double kContradicted = 0.7;
 /// So many times as much is doubtful [1].
 constexpr double kDoubtful = 0.2;
@@ -29,9 +29,8 @@ constexpr double kDoubtful = 0.2;
 constexpr double kSurprising = 2.0;
 /// Another pose is taken if it explains so much more of the scan [1].
 constexpr double kBetterBy = 0.05;
-/// A doubtful pose is believed if it explains so much of the scan, and calls no more than
-/// so much of that free [1].
-constexpr double kConvincing = 0.2, kUnconvincing = 0.45;
+/// A doubtful pose is believed if it explains so much of the scan [1].
+constexpr double kConvincing = 0.2;
 /// A motion is not guessed to go on for longer than this [s].
 constexpr double kLongestGuess_s = 1.0;
 /// Odometry that recognises no scan so often in a row goes on from the prior in a new map
@@ -172,7 +171,7 @@ bool ScanTracker::Impl::isBelieved(const PoseHypothesis& found,
     // Odometry has nothing to set it right later.
     const bool doubtful = !given && isDoubtful(found, prior);
     return found.overlap >= std::max(params.minOverlap, doubtful ? kConvincing : 0.0) &&
-           found.contradicted <= (doubtful ? kUnconvincing : kContradicted) * found.overlap;
+           found.contradicted <= kContradicted * found.overlap;
 }
 
 bool ScanTracker::Impl::isDoubtful(const PoseHypothesis& found,
