@@ -24,12 +24,12 @@ Eigen::Vector3d randomDirection(std::mt19937_64& engine) {
     return Eigen::Vector3d(normal(engine), normal(engine), normal(engine)).normalized();
 }
 
-TEST(RangeImage, GivesTheNearestMeasurementAround) {
+TEST(RayImage, GivesTheNearestMeasurementAround) {
     std::mt19937_64 engine(1);
     Mixture<3> samples;
     for (int i = 0; i < 3000; ++i)
         add(samples, kOrigin + uniform(engine, 0.5, 30) * randomDirection(engine));
-    const RangeImage image(samples, kOrigin);
+    const RayImage image(samples, kOrigin);
     constexpr double bin = 2.6 * M_PI / 180;  // at the centre of a face
     int empty = 0, seen = 0;
     for (int q = 0; q < 3000; ++q) {
@@ -64,7 +64,7 @@ TEST(RangeImage, GivesTheNearestMeasurementAround) {
 }
 
 /// A dense scan of the plane x = `distance` from kOrigin.
-RangeImage wallAt(double distance) {
+RayImage wallAt(double distance) {
     Mixture<3> samples;
     for (double a = -1.2; a <= 1.2; a += 0.015)
         for (double b = -1.2; b <= 1.2; b += 0.015)
@@ -81,11 +81,10 @@ Gaussian<3> plate(const Eigen::Vector3d& mean, const Eigen::Vector3d& sigma) {
 }
 
 TEST(SeenThrough, WhatStandsBeforeAWallButNotTheWallNorWhatIsBehind) {
-    const RangeImage image = wallAt(8);
+    const RayImage image = wallAt(8);
     const Eigen::Vector3d sigma(0.01, 0.15, 0.15);
     const auto seen = [&](double x) {
-        return isSeenThrough(plate(kOrigin + Eigen::Vector3d(x, 0.7, 0.2), sigma), image,
-                             kOrigin);
+        return isSeenThrough(plate(kOrigin + Eigen::Vector3d(x, 0.7, 0.2), sigma), image);
     };
     EXPECT_TRUE(seen(3));
     EXPECT_TRUE(seen(7));
@@ -97,10 +96,10 @@ TEST(SeenThrough, WhatStandsBeforeAWallButNotTheWallNorWhatIsBehind) {
 }
 
 TEST(SeenThrough, NotThroughNoiseThatIsAsWideAsTheStep) {
-    const RangeImage image = wallAt(8);
+    const RayImage image = wallAt(8);
     const auto seen = [&](double noise) {
         return isSeenThrough(plate(kOrigin + Eigen::Vector3d(7.5, 0, 0), {noise, 0.1, 0.1}),
-                             image, kOrigin);
+                             image);
     };
     EXPECT_TRUE(seen(0.05));
     EXPECT_FALSE(seen(0.25));
@@ -111,15 +110,15 @@ TEST(SeenThrough, NotTheFloorAtGrazingAngles) {
     for (double x = 0.3; x < 20; x += 0.02 * (1 + x))
         for (double y = -3; y < 3; y += 0.03)
             add(floor, {kOrigin.x() + x, kOrigin.y() + y, 0});
-    const RangeImage image(floor, kOrigin);
+    const RayImage image(floor, kOrigin);
     for (double x = 0.5; x < 18; x += 0.25)
         EXPECT_FALSE(isSeenThrough(
-            plate({kOrigin.x() + x, kOrigin.y(), 0}, {0.1 * (1 + x / 5), 0.1, 0.01}), image,
-            kOrigin))
+            plate({kOrigin.x() + x, kOrigin.y(), 0}, {0.1 * (1 + x / 5), 0.1, 0.01}),
+            image))
             << x;
     // A post on it is.
     EXPECT_TRUE(isSeenThrough(plate({kOrigin.x() + 4, kOrigin.y(), 0.4}, {0.02, 0.02, 0.1}),
-                              image, kOrigin));
+                              image));
 }
 
 TEST(SeenThrough, NotWhatIsMostlyHidden) {
@@ -128,12 +127,12 @@ TEST(SeenThrough, NotWhatIsMostlyHidden) {
     for (double a = -1; a <= 1; a += 0.015)
         for (double b = -1; b <= 1; b += 0.015)
             add(samples, kOrigin + (a < 0.05 ? 2.0 : 8.0) * Eigen::Vector3d(1, a, b));
-    const RangeImage image(samples, kOrigin);
+    const RayImage image(samples, kOrigin);
     EXPECT_FALSE(isSeenThrough(
-        plate(kOrigin + Eigen::Vector3d(4, 0.2, 0), {0.01, 0.5, 0.1}), image, kOrigin));
-    EXPECT_TRUE(isSeenThrough(plate(kOrigin + Eigen::Vector3d(4, 2, 0), {0.01, 0.3, 0.1}),
-                              image, kOrigin));
-    EXPECT_FALSE(isSeenThrough(plate(kOrigin, {0.1, 0.1, 0.1}), image, kOrigin));
+        plate(kOrigin + Eigen::Vector3d(4, 0.2, 0), {0.01, 0.5, 0.1}), image));
+    EXPECT_TRUE(
+        isSeenThrough(plate(kOrigin + Eigen::Vector3d(4, 2, 0), {0.01, 0.3, 0.1}), image));
+    EXPECT_FALSE(isSeenThrough(plate(kOrigin, {0.1, 0.1, 0.1}), image));
 }
 
 TEST(CoarseGrid, AgreesWithBruteForceThroughMovesAndRemovals) {

@@ -1,5 +1,6 @@
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <utility>
 
 #include "base/power_of_two.h"
 #include "hgmm/map.h"
@@ -29,6 +30,9 @@ class Crop {
         part.params = model_.params;
         part.origin = model_.origin;
         model_.coverage.copyAround(box_, part.coverage);
+        Coverage openings;
+        model_.openings.cells().copyAround(box_, openings);
+        part.openings = Openings(std::move(openings), {});
         part.components = surfaces(part.coverage);
         part.freeSpace = freeSpace();
         part.modalities = model_.modalities.within(corners_);

@@ -8,6 +8,7 @@
 #include "fusion/missed.h"
 #include "fusion/novelty.h"
 #include "fusion/oversized.h"
+#include "fusion/passed_surfaces.h"
 #include "fusion/update.h"
 #include "hgmm/em.h"
 #include "hgmm/hierarchy.h"
@@ -111,6 +112,44 @@ std::size_t removeWeak(ComponentStore& store, std::vector<std::uint32_t> weakene
     return removed;
 }
 
+/// Components that rays may have met, rising.
+std::vector<std::uint32_t> inViewOf(const Mixture<3>& ends,
+                                    const Eigen::Vector3d& sensorOrigin,
+                                    const CoarseGrid& grid) {
+    Eigen::Vector3d low = sensorOrigin, high = sensorOrigin;
+    for (int d = 0; d < 3; ++d) {
+        const auto [least, most] =
+            std::minmax_element(ends.mean[d].begin(), ends.mean[d].end());
+        low[d] = std::min<double>(low[d], *least);
+        high[d] = std::max<double>(high[d], *most);
+    }
+    return grid.within(low, high);
+}
+
+/// What rays that passed surfaces take away. Returns how many components lost support.
+std::size_t carve(const Mixture<3>& samples, const Mixture<3>& ends,
+                  const ScanSamples& scan, const Pose& T_local_sensor, Model& model,
+                  const QueryCache& cache, std::vector<std::uint32_t>& weakened) {
+    const CarvingParams& params = model.params.carving;
+    if (params.carvedSupport == 1.0) return 0;
+    ComponentStore& store = model.components;
+    const Eigen::Vector3d& origin = T_local_sensor.t;
+    const RayImage image(ends, origin);
+    const std::vector<std::uint32_t> near = inViewOf(ends, origin, cache.grid());
+    const Coverage::Rays rays(model.params.occupancy.coverage, scan.raySpacing_rad,
+                              T_local_sensor.R * scan.normalOfRays_sensor);
+    model.openings.learn(
+        passedSurfaces(store.surfaces(), cache.index(), near, kTrustedHits, image, rays),
+        samples, origin, rays);
+    const std::vector<std::uint32_t> seen = seenThrough(store.surfaces(), image, near);
+    for (const std::uint32_t i : seen) {
+        const double trusted = std::min(store.surfaces().support[i], kTrustedHits);
+        store.setSupport(i, static_cast<float>(trusted * params.carvedSupport));
+    }
+    weakened.insert(weakened.end(), seen.begin(), seen.end());
+    return seen.size();
+}
+
 /// Takes support from components of few hits that the scan missed.
 std::size_t decayMissed(ComponentStore& store, const QueryCache& cache,
                         const std::vector<std::uint32_t>& hit, const ScanRays& rays,
@@ -196,13 +235,8 @@ void insertSamples(const ScanSamples& scan, const Pose& T_local_sensor, Model& m
     report.componentsMissed =
         decayMissed(store, cache, learned.hit, {ends, limit, scan.raySpacing_rad},
                     params.carving, weakened);
-    for (const std::uint32_t i :
-         seenThrough(store.surfaces(), ends, sensorOrigin, cache.grid(), params.carving)) {
-        const double trusted = std::min(store.surfaces().support[i], kTrustedHits);
-        store.setSupport(i, static_cast<float>(trusted * params.carving.carvedSupport));
-        weakened.push_back(i);
-        ++report.componentsCarved;
-    }
+    report.componentsCarved =
+        carve(samples, ends, scan, T_local_sensor, model, cache, weakened);
     report.componentsRemoved =
         removeWeak(store, std::move(weakened), params.carving.minSupport);
     cache.apply(store.takeChanges(), updatedFree);

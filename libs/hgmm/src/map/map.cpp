@@ -54,12 +54,14 @@ std::size_t Map::liveBytes() const {
     const Model& model = state_->model;
     return sizeof(Map) + sizeof(State) + model.components.liveBytes() +
            model.freeSpace.liveBytes() + model.coverage.liveBytes() +
-           model.modalities.liveBytes() + state_->cache.liveBytes();
+           model.openings.liveBytes() + model.modalities.liveBytes() +
+           state_->cache.liveBytes();
 }
 
 bool Model::operator==(const Model& o) const {
     return params == o.params && origin == o.origin && components == o.components &&
-           freeSpace == o.freeSpace && coverage == o.coverage && modalities == o.modalities;
+           freeSpace == o.freeSpace && coverage == o.coverage && openings == o.openings &&
+           modalities == o.modalities;
 }
 
 bool Map::operator==(const Map& o) const {

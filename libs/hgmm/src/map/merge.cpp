@@ -125,6 +125,7 @@ void Map::merge(const Map& other, const Pose& T_this_other) {
         updatedFree.push_back(model.freeSpace.merge(
             moved(from.freeSpace.mixture()[i], T_local_other), from.freeSpace.octave(i)));
     model.coverage.merge(from.coverage, T_local_other);
+    model.openings.merge(from.openings, T_local_other);
     std::sort(updatedFree.begin(), updatedFree.end());
     updatedFree.erase(std::unique(updatedFree.begin(), updatedFree.end()),
                       updatedFree.end());

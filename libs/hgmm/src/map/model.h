@@ -8,6 +8,7 @@
 #include "modality/modalities.h"
 #include "occupancy/coverage.h"
 #include "occupancy/free_space.h"
+#include "occupancy/openings.h"
 
 namespace hgmm {
 
@@ -19,6 +20,7 @@ struct Model {
     ComponentStore components;
     FreeSpace freeSpace;
     Coverage coverage;
+    Openings openings;
     Modalities modalities;
 
     /// Whether the local frame may still be anywhere.

@@ -169,7 +169,7 @@ std::unique_ptr<OccupancyModel> QueryCache::makeOccupancy(std::size_t level) con
     const Coverage& coverage = isBase ? model_.coverage : this->coverage(level);
     auto made = std::make_unique<OccupancyModel>(
         model_.params.occupancy, OccupancyModel::Surfaces{surfaces, views, index(level)},
-        coverage);
+        coverage, model_.openings);
     for (std::uint32_t i = 0; i < surfaces.size(); ++i) made->updateSurface(i);
     for (std::uint32_t i = 0; i < free.size(); ++i) made->updateFree(i, free[i]);
     return made;

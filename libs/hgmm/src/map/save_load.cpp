@@ -3,6 +3,7 @@
 #include <limits>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "base/byte_stream.h"
 #include "hgmm/map.h"
@@ -41,9 +42,12 @@ namespace {
 //   u64 bytes, then exact: writeCoverage (encodeCoverage is read, too), compact:
 //   encodeCoverage
 // and ends with modalities, whether it models any or not.
+// version 5 has, behind coverage and alike, openings, then cells that were passed once, of
+// which compact has none; maps without either are written as version 4
 // An exact mixture is that of putMixture.
 constexpr char kMagic[4] = {'H', 'G', 'M', 'M'};
-constexpr std::uint32_t kVersion = 4, kWithoutModalities = 2, kWithCoverage = 4;
+constexpr std::uint32_t kVersion = 5, kWithoutModalities = 2, kWithCoverage = 4,
+                        kWithOpenings = 5;
 constexpr std::size_t kHeader = 24;
 
 [[noreturn]] void refuse(const RetiredOption& option) {
@@ -226,25 +230,44 @@ void getComponents(Reader& in, std::uint32_t version, Model& model) {
         throw FormatError("saved map: unknown encoding " + std::to_string(encoding));
 }
 
+void putCoverage(Writer& out, const Coverage& coverage, Encoding encoding) {
+    putSection(out, [&](auto& bytes) {
+        if (encoding == Encoding::compact)
+            encodeCoverage(coverage, bytes);
+        else
+            writeCoverage(coverage, bytes);
+    });
+}
+
+void getCoverage(Reader& in, Coverage& coverage) {
+    getSection(in, [&](const std::uint8_t* bytes, std::size_t n) {
+        return decodeCoverage(bytes, n, coverage);
+    });
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> Map::save(Encoding encoding) const {
     const Model& model = state_->model;
+    const bool hasOpenings = encoding == Encoding::exact ? !model.openings.empty()
+                                                         : !model.openings.cells().empty();
     std::vector<std::uint8_t> buffer;
     Writer out(buffer);
     out.put(kMagic, sizeof(kMagic));
-    out.put(kVersion);
+    out.put(hasOpenings ? kWithOpenings : kWithCoverage);
     out.put(std::uint64_t{0});
     out.put(std::uint64_t{0});
     putParams(out, model.params);
     out.put(model.origin.data(), 3);
     putComponents(out, model, encoding);
-    putSection(out, [&](auto& bytes) {
-        if (encoding == Encoding::compact)
-            encodeCoverage(model.coverage.pruned(), bytes);
-        else
-            writeCoverage(model.coverage, bytes);
-    });
+    putCoverage(out,
+                encoding == Encoding::compact ? model.coverage.pruned() : model.coverage,
+                encoding);
+    if (hasOpenings) {
+        putCoverage(out, model.openings.cells(), encoding);
+        putCoverage(out, encoding == Encoding::exact ? model.openings.once() : Coverage(),
+                    encoding);
+    }
     putModalities(out, model.params, model.modalities, encoding);
 
     const std::uint64_t size = buffer.size();
@@ -268,9 +291,13 @@ Map Map::load(const std::uint8_t* data, std::size_t size) try {
             guessedCoverage(model.components.surfaces(), model.components.viewDirections(),
                             model.freeSpace.mixture(), model.params.occupancy);
     else
-        getSection(in, [&](const std::uint8_t* bytes, std::size_t n) {
-            return decodeCoverage(bytes, n, model.coverage);
-        });
+        getCoverage(in, model.coverage);
+    if (version >= kWithOpenings) {
+        Coverage cells, once;
+        getCoverage(in, cells);
+        getCoverage(in, once);
+        model.openings = Openings(std::move(cells), std::move(once));
+    }
     if (version > kWithoutModalities) model.modalities = getModalities(in, model.params);
     if (in.left() != 0) throw FormatError("saved map: bytes are left over at its end");
     return map;

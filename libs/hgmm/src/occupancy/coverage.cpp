@@ -196,8 +196,23 @@ unsigned Coverage::corners(const LatticeCell& low) const {
     return found;
 }
 
+void Coverage::clear(const Eigen::AlignedBox3d& box, const Coverage& kept) {
+    const std::vector<int> octaves = octaves_;
+    for (const int octave : octaves) {
+        const CellRange range(LatticeCell::at(box.min(), octave),
+                              LatticeCell::at(box.max(), octave));
+        range.forEachBlock([&](const LatticeCell& block) {
+            const Word marked = word(block);
+            if (marked == 0) return;
+            const Word cleared = marked & range.cellsIn(block) & ~kept.word(block);
+            if (cleared != 0) blocks_.unmark(block, cleared);
+        });
+    }
+    if (blocks_.size() == 0) octaves_.clear();
+}
+
 template <typename T>
-T Coverage::at(const T* x) const {
+T Coverage::shareAt(const T* x) const {
     T best = 0.0;
     for (const int octave : octaves_) {
         const double edge = powerOfTwo(octave);
@@ -216,14 +231,12 @@ T Coverage::at(const T* x) const {
                 weight = weight * ((k >> d & 1) != 0 ? upper[d] : 1.0 - upper[d]);
             share += weight;
         }
-        // Around a ray of its own, without its neighbours, it ends sooner.
-        share = share * share;
         if (valueOf(share) > valueOf(best)) best = share;
     }
     return best;
 }
-template double Coverage::at(const double*) const;
-template Dual Coverage::at(const Dual*) const;
+template double Coverage::shareAt(const double*) const;
+template Dual Coverage::shareAt(const Dual*) const;
 
 void Coverage::merge(const Coverage& other, const Pose& T_local_other) {
     const Pose T_other_local = T_local_other.inverse();

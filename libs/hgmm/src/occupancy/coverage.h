@@ -47,10 +47,16 @@ class Coverage {
                  const Rays& rays);
 
     /// C(x) in [0, 1]: the trilinear share of marked cells, squared, largest over the
-    /// lattices.
+    /// lattices. Around a ray of its own, without its neighbours, it ends sooner so.
     /// Continuous; 0 where no ray was near. T is double or Dual.
     template <typename T>
-    T at(const T* x) const;
+    T at(const T* x) const {
+        const T share = shareAt(x);
+        return share * share;
+    }
+    /// The trilinear share of marked cells in [0, 1], largest over the lattices.
+    template <typename T>
+    T shareAt(const T* x) const;
 
     /// Adds the cells of another map, whose frame has pose T_local_other here. A cell is
     /// marked if its centre lies in a marked one of the other.
@@ -78,6 +84,10 @@ class Coverage {
     /// Marks cells of a block.
     void mark(const LatticeCell& block, Word cells);
     void mark(const LatticeCell& cell);
+    /// Marks the cells of a lattice that a segment passes.
+    void markSegment(int octave, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+    /// Takes away the marked cells that a box touches, but for those that `kept` has.
+    void clear(const Eigen::AlignedBox3d& box, const Coverage& kept = {});
 
     std::size_t blockCount() const { return blocks_.size(); }
     std::size_t liveBytes() const { return blocks_.liveBytes(); }
@@ -89,7 +99,6 @@ class Coverage {
     unsigned corners(const LatticeCell& low) const;
     /// The cells of a word of a block in which no coarser lattice says C = 1.
     Word withoutCovered(const LatticeCell& block, Word word) const;
-    void markSegment(int octave, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
     CellBlocks blocks_;
     std::vector<int> octaves_;

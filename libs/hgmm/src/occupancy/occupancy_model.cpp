@@ -46,10 +46,11 @@ float peakOf(double support, const WhitenedGaussian<3, float>& g) {
 }  // namespace
 
 OccupancyModel::OccupancyModel(const OccupancyParams& params, const Surfaces& surfaces,
-                               const Coverage& coverage)
+                               const Coverage& coverage, const Openings& openings)
     : params_(params),
       surfaces_(surfaces),
       coverage_(coverage),
+      openings_(openings),
       unknownDensity_(static_cast<float>(std::exp(-0.5 * square(params.knownSigmas)))),
       sharpness_(square(params.knownSigmas / params.extentSigmas)) {
     params.validate();
@@ -138,17 +139,19 @@ template <typename T>
 OccupancyModel::Answer<T> OccupancyModel::answer(const T* x) const {
     Answer<T> answer;
     const Sums<T> s = sums(x);
-    const T coverage = coverage_.at(x) * (1.0 - s.sides.shadow());
+    const T stands = 1.0 - openings_.at(x);
+    const T coverage = coverage_.at(x) * (1.0 - stands * s.sides.shadow());
     const T free = s.atHits.density + coverage * (s.passed.density + kPassedDensity);
-    const T total = s.occupied + free;
+    const T occupied = stands * s.occupied;
+    const T total = occupied + free;
     if (!(valueOf(total) > 1e-300)) return answer;
     const T known = 1.0 - unknownDensity_ / (s.known + unknownDensity_) * (1.0 - coverage);
-    answer.occupied = s.occupied / total * known;  // thesis eq. (4.15)
-    answer.free = free / total * known;            // thesis eq. (4.16)
+    answer.occupied = occupied / total * known;  // thesis eq. (4.15)
+    answer.free = free / total * known;          // thesis eq. (4.16)
 
     const double c = valueOf(coverage);
     const double weight =
-        valueOf(s.occupied) + valueOf(s.atHits.density) + c * valueOf(s.passed.density);
+        valueOf(occupied) + valueOf(s.atHits.density) + c * valueOf(s.passed.density);
     if (!(weight > 1e-300)) return answer;
     answer.alongRay_m =  // thesis eq. (4.17)
         (s.atHits.distance + c * s.passed.distance) / weight;

@@ -16,6 +16,7 @@
 #include "occupancy/band_kernel.h"
 #include "occupancy/coverage.h"
 #include "occupancy/free_space.h"
+#include "occupancy/openings.h"
 #include "occupancy/sides.h"
 
 namespace hgmm {
@@ -47,10 +48,10 @@ class OccupancyModel {
         const ViewDirections& views;
         const ComponentIndex& index;  ///< has the rows' factors; of kSigmas
     };
-    /// @param surfaces, coverage read whenever asked; must outlive the model
+    /// @param surfaces, coverage, openings read whenever asked; must outlive the model
     /// Throws std::invalid_argument naming the field.
     OccupancyModel(const OccupancyParams& params, const Surfaces& surfaces,
-                   const Coverage& coverage);
+                   const Coverage& coverage, const Openings& openings);
 
     /// Answers depend on a component only at points that a BoxIndex with this box leads to.
     static BoxCells::Box reachOf(const OccupancyParams& params, const Gaussian<3>& surface,
@@ -177,6 +178,7 @@ class OccupancyModel {
     OccupancyParams params_;
     const Surfaces surfaces_;
     const Coverage& coverage_;
+    const Openings& openings_;
     double unknownDensity_;  ///< k
     double sharpness_;       ///< of extents against thickness
     std::vector<Joint> freeJoints_;

@@ -1,0 +1,78 @@
+#pragma once
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "hgmm/mixture.h"
+
+namespace hgmm {
+
+/// The rays of one scan by direction, in bins on the faces of a cube around the sensor.
+class RayImage {
+ public:
+    struct Ray {
+        Eigen::Vector3d direction;  ///< unit vector
+        double length_m;            ///< > 0
+    };
+
+    /// @param ends where the rays of a scan end, in the frame of `origin`
+    RayImage(const Mixture<3>& ends, const Eigen::Vector3d& origin);
+
+    const Eigen::Vector3d& origin() const { return origin_; }
+    /// The nearest measurement in the bin of a direction and the bins beside it [m]; 0
+    /// where there is none in its own bin.
+    float nearestRange(const Eigen::Vector3d& direction) const;
+
+    /// Calls visit(ray) for the rays of all bins that are within an angle [rad] of a
+    /// direction and hold one of at least `length_m`, in a fixed order.
+    template <typename Visitor>
+    void visitAround(const Eigen::Vector3d& direction, double angle_rad, double length_m,
+                     Visitor&& visit) const;
+
+ private:
+    static constexpr int kBins = 45;  // an axis of a face: 2 degrees
+    static constexpr std::size_t kAllBins = std::size_t{6} * kBins * kBins;
+
+    static std::size_t numberOf(int face, int row, int col) {
+        return static_cast<std::size_t>((face * kBins + row) * kBins + col);
+    }
+    static int binAt(double v) {
+        return std::clamp(static_cast<int>((v + 1) * (kBins / 2.0)), 0, kBins - 1);
+    }
+    struct Bin {
+        int face, row, col;
+    };
+    static Bin binOf(const Eigen::Vector3d& direction);
+
+    Eigen::Vector3d origin_;
+    std::vector<Ray> rays_;             ///< by bin
+    std::vector<std::uint32_t> first_;  ///< of each bin in rays_, and their number
+    std::vector<float> nearest_m_;      ///< of each bin; 0 where there is none
+    std::vector<float> farthest_m_;     ///< likewise
+};
+
+template <typename Visitor>
+void RayImage::visitAround(const Eigen::Vector3d& direction, double angle_rad,
+                           double length_m, Visitor&& visit) const {
+    for (int face = 0; face < 6; ++face) {
+        const int axis = face / 2;
+        const double depth = (face % 2 == 0 ? 1 : -1) * direction[axis];
+        // On the face of a cube an angle is widest at its corners: 1 / cos^2.
+        if (!(depth > 0.2)) continue;
+        const double u = direction[(axis + 1) % 3] / depth,
+                     v = direction[(axis + 2) % 3] / depth,
+                     wide = std::min(2.0, angle_rad / (depth * depth));
+        if (!(std::abs(u) - wide < 1 && std::abs(v) - wide < 1)) continue;
+        for (int row = binAt(u - wide); row <= binAt(u + wide); ++row)
+            for (int col = binAt(v - wide); col <= binAt(v + wide); ++col) {
+                const std::size_t bin = numberOf(face, row, col);
+                if (!(double(farthest_m_[bin]) >= length_m)) continue;
+                for (std::uint32_t k = first_[bin]; k < first_[bin + 1]; ++k)
+                    visit(rays_[k]);
+            }
+    }
+}
+
+}  // namespace hgmm

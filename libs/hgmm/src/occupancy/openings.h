@@ -1,0 +1,55 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstddef>
+
+#include "hgmm/mixture.h"
+#include "occupancy/coverage.h"
+
+namespace hgmm {
+
+/// Where surfaces of the map are open: cells in which the rays of two scans went through a
+/// surface and none ended since, as in a door that opened. A component stands for all that
+/// was ever hit of a surface; in openings its hits do not count.
+class Openings {
+ public:
+    Openings() = default;
+    /// @param once cells that one scan passed so far
+    Openings(Coverage cells, Coverage once)
+        : cells_(std::move(cells)), once_(std::move(once)) {}
+
+    /// Octave of its cells at a distance w from the sensor [m]: finer than coverage's, for
+    /// an opening ends where a wall begins.
+    static int octaveAt(double w_m, const Coverage::Rays& rays) {
+        return rays.octaveAt(w_m) - 1;
+    }
+
+    /// @param passed cells in which rays of a scan went through surfaces. Where its rays
+    /// also end there is an edge: cells stay as they were.
+    /// @param hits where its rays end, in the frame of the surfaces
+    void learn(Coverage passed, const Mixture<3>& hits, const Eigen::Vector3d& sensorOrigin,
+               const Coverage::Rays& rays);
+    void merge(const Openings& other, const Pose& T_local_other) {
+        cells_.merge(other.cells_, T_local_other);
+    }
+
+    /// 1 in openings, 0 from half a cell beside them, continuous. T is double or Dual.
+    template <typename T>
+    T at(const T* x) const {
+        if (cells_.empty()) return 0.0;
+        const T twice = 2.0 * cells_.shareAt(x);
+        return valueOf(twice) < 1.0 ? twice : T(1.0);
+    }
+
+    const Coverage& cells() const { return cells_; }
+    const Coverage& once() const { return once_; }
+    bool empty() const { return cells_.empty() && once_.empty(); }
+    std::size_t liveBytes() const { return cells_.liveBytes() + once_.liveBytes(); }
+    bool operator==(const Openings& o) const {
+        return cells_ == o.cells_ && once_ == o.once_;
+    }
+
+ private:
+    Coverage cells_, once_;
+};
+
+}  // namespace hgmm
