@@ -103,7 +103,7 @@ TEST(PassedSurfaces, AreWidePiecesOfManyHits) {
     EXPECT_TRUE(
         passedBy(pieceAt({4, 0, 0}, {0.02, 0.3, 0.3}, 39), fanOfEnds(20, 6)).empty());
     EXPECT_TRUE(passedBy(pieceAt({4, 0, 0}, {0.15, 0.3, 0.3}), fanOfEnds(20, 6)).empty());
-    EXPECT_TRUE(passedBy(pieceAt({4, 0, 0}, {0.004, 0.02, 0.3}), fanOfEnds(20, 6)).empty());
+    EXPECT_TRUE(passedBy(pieceAt({4, 0, 0}, {0.002, 0.01, 0.3}), fanOfEnds(20, 6)).empty());
 }
 
 TEST(PassedSurfaces, AreCellsAboutThePlaceOnly) {

@@ -20,6 +20,8 @@ constexpr double kWidthPerThickness = 4.0;
 /// Rays end so many standard deviations behind what they go through, and by what poses may
 /// be off besides: at 1 m, growing with the root of the range [m], and of the range [1].
 constexpr double kBehindSigmas = 3.0, kErrorAtOneMetre_m = 0.02, kErrorPerMetre = 0.015;
+/// And no farther than this [m]: things hide in wider gaps.
+constexpr double kWidest_m = 0.25;
 /// A surface is felt so far from its plane [standard deviations].
 constexpr double kFeltSigmas = 4.0;
 
@@ -60,16 +62,33 @@ class Passage {
         const int octave = Openings::octaveAt(*range_m, rays_);
         const double edge_m = powerOfTwo(octave);
         if (2.0 * std::sqrt(kTileSigmas2) * piece_.width_m < edge_m) return;
-        const Eigen::Vector3d place = origin_ + *range_m * ray.direction;
-        const Eigen::Vector3d half =
-            std::max(kFeltSigmas * piece_.thickness_m, edge_m / 4) * piece_.normal;
-        const Eigen::Vector3d aside = edge_m / 4 * rays_.normal();
-        passed.markSegment(octave, place - half + aside, place + half + aside);
-        if (!aside.isZero())
-            passed.markSegment(octave, place - half - aside, place + half - aside);
+        markAbout(origin_ + *range_m * ray.direction, octave,
+                  std::min(rays_.spacing_rad() * *range_m, kWidest_m), passed);
     }
 
  private:
+    /// Marks the cells about a place in which the piece is felt. The ray stands for it as
+    /// far as the next rays.
+    void markAbout(const Eigen::Vector3d& place, int octave, double spacing_m,
+                   Coverage& passed) const {
+        const double edge_m = powerOfTwo(octave);
+        const Eigen::Vector3d half =
+            std::max(kFeltSigmas * piece_.thickness_m, edge_m / 4) * piece_.normal;
+        const bool isPlanar = !rays_.normal().isZero();
+        const int steps = std::max(1, static_cast<int>(std::ceil(spacing_m / edge_m)));
+        const Eigen::Vector3d upright =
+            isPlanar ? rays_.normal() : Eigen::Vector3d(piece_.normal.unitOrthogonal());
+        // A planar laser marks a layer of cells, as coverage does.
+        const Eigen::Vector3d up = (isPlanar ? edge_m / 4 : spacing_m / steps) * upright;
+        const Eigen::Vector3d aside = spacing_m / steps * piece_.normal.cross(upright);
+        const int rows = isPlanar ? 1 : steps;
+        for (int i = -rows; i <= rows; ++i)
+            for (int j = -steps; j <= steps; ++j) {
+                const Eigen::Vector3d at = place + i * up + j * aside;
+                passed.markSegment(octave, at - half, at + half);
+            }
+    }
+
     /// Distance at which it does.
     std::optional<double> goesThrough(const RayImage::Ray& ray) const {
         if (piece_.thickness_m * kWidthPerThickness > piece_.width_m) return std::nullopt;
@@ -111,7 +130,8 @@ Coverage passedSurfaces(const Mixture<3>& surfaces, const ComponentIndex& index,
                      extent_m = std::sqrt(kTileSigmas2 * component.covariance.trace());
         if (!(range_m > extent_m)) continue;
         Passage passage(component, index.factor(i), image.origin(), rays);
-        image.visitAround(towards / range_m, extent_m / range_m, range_m - extent_m,
+        image.visitAround(towards / range_m, std::min(0.6, extent_m / range_m),
+                          range_m - extent_m,
                           [&](const RayImage::Ray& ray) { passage.mark(ray, passed); });
     }
     return passed;

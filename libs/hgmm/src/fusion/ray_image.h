@@ -25,8 +25,8 @@ class RayImage {
     /// where there is none in its own bin.
     float nearestRange(const Eigen::Vector3d& direction) const;
 
-    /// Calls visit(ray) for the rays of all bins that are within an angle [rad] of a
-    /// direction and hold one of at least `length_m`, in a fixed order.
+    /// Calls visit(ray) for the rays of all bins that reach within an angle, up to 0.6 rad,
+    /// of a direction and hold one of at least `length_m`, in a fixed order.
     template <typename Visitor>
     void visitAround(const Eigen::Vector3d& direction, double angle_rad, double length_m,
                      Visitor&& visit) const;
@@ -59,11 +59,15 @@ void RayImage::visitAround(const Eigen::Vector3d& direction, double angle_rad,
     for (int face = 0; face < 6; ++face) {
         const int axis = face / 2;
         const double depth = (face % 2 == 0 ? 1 : -1) * direction[axis];
-        // On the face of a cube an angle is widest at its corners: 1 / cos^2.
-        if (!(depth > 0.2)) continue;
+        // Rays of a face are within 0.956 rad of its axis. Seen from it, the cone reaches
+        // to tan(theta + angle), theta being that of its own axis.
+        if (!(depth > std::max(0.0, std::cos(0.956 + angle_rad)))) continue;
+        const double sine = std::sin(angle_rad),
+                     end = depth * std::cos(angle_rad) -
+                           std::sqrt(std::max(0.0, 1 - depth * depth)) * sine;
         const double u = direction[(axis + 1) % 3] / depth,
                      v = direction[(axis + 2) % 3] / depth,
-                     wide = std::min(2.0, angle_rad / (depth * depth));
+                     wide = end > 0.01 ? sine / (depth * end) : 100.0;
         if (!(std::abs(u) - wide < 1 && std::abs(v) - wide < 1)) continue;
         for (int row = binAt(u - wide); row <= binAt(u + wide); ++row)
             for (int col = binAt(v - wide); col <= binAt(v + wide); ++col) {

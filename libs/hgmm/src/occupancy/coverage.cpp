@@ -139,6 +139,7 @@ void Coverage::markSegment(int octave, const Eigen::Vector3d& from,
 Coverage::Rays::Rays(const CoverageParams& params, double raySpacing_rad,
                      const Eigen::Vector3d& normalOfRays)
     : normal_(normalOfRays),
+      spacing_rad_(raySpacing_rad),
       atOneMetre_m_(params.coverageCellAtOneMetre_m),
       perMetre_(kCellsPerSpacing * raySpacing_rad) {}
 

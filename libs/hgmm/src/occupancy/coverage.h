@@ -31,6 +31,7 @@ class Coverage {
         Rays(const CoverageParams& params, double raySpacing_rad,
              const Eigen::Vector3d& normalOfRays);
         const Eigen::Vector3d& normal() const { return normal_; }
+        double spacing_rad() const { return spacing_rad_; }
         /// Octave of the cells at a distance w from the sensor [m].
         int octaveAt(double w_m) const;
         /// Distance at which the cells of an octave end [m].
@@ -38,7 +39,7 @@ class Coverage {
 
      private:
         Eigen::Vector3d normal_;
-        double atOneMetre_m_, perMetre_;
+        double spacing_rad_, atOneMetre_m_, perMetre_;
     };
 
     /// Marks the cells that a ray passes, in the local frame. The last half cell before

@@ -1,7 +1,9 @@
 #pragma once
 #include <Eigen/Core>
 #include <cstddef>
+#include <utility>
 
+#include "base/dual.h"
 #include "hgmm/mixture.h"
 #include "occupancy/coverage.h"
 
