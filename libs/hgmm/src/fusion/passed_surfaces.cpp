@@ -14,14 +14,14 @@ namespace {
 
 /// A tile, evenly filled, ends at sqrt(3) standard deviations.
 constexpr double kTileSigmas2 = 3.0;
-/// Pieces of surfaces are at least so many times wider than thick; others, as bushes, let
-/// rays pass and are still there.
-constexpr double kWidthPerThickness = 4.0;
+/// Pieces of surfaces are at least so many times wider than thick; others, as bushes and
+/// corners, let rays pass and are still there.
+constexpr double kWidthPerThickness = 7.0;
+/// Rays farther apart do not tell: too few end beside an edge [m].
+constexpr double kSparsest_m = 0.125;
 /// Rays end so many standard deviations behind what they go through, and by what poses may
 /// be off besides: at 1 m, growing with the root of the range [m], and of the range [1].
 constexpr double kBehindSigmas = 3.0, kErrorAtOneMetre_m = 0.02, kErrorPerMetre = 0.015;
-/// And no farther than this [m]: things hide in wider gaps.
-constexpr double kWidest_m = 0.25;
 /// A surface is felt so far from its plane [standard deviations].
 constexpr double kFeltSigmas = 4.0;
 
@@ -59,28 +59,28 @@ class Passage {
         }
         const std::optional<double> range_m = goesThrough(ray);
         if (!range_m) return;
+        const double spacing_m = rays_.spacing_rad() * *range_m;
+        if (spacing_m > kSparsest_m) return;
         const int octave = Openings::octaveAt(*range_m, rays_);
-        const double edge_m = powerOfTwo(octave);
-        if (2.0 * std::sqrt(kTileSigmas2) * piece_.width_m < edge_m) return;
-        markAbout(origin_ + *range_m * ray.direction, octave,
-                  std::min(rays_.spacing_rad() * *range_m, kWidest_m), passed);
+        if (2.0 * std::sqrt(kTileSigmas2) * piece_.width_m < powerOfTwo(octave)) return;
+        markAbout(origin_ + *range_m * ray.direction, octave, spacing_m / 2, passed);
     }
 
  private:
-    /// Marks the cells about a place in which the piece is felt. The ray stands for it as
-    /// far as the next rays.
-    void markAbout(const Eigen::Vector3d& place, int octave, double spacing_m,
+    /// Marks the cells about a place in which the piece is felt. The ray stands for it up
+    /// to half way to the next rays.
+    void markAbout(const Eigen::Vector3d& place, int octave, double half_m,
                    Coverage& passed) const {
         const double edge_m = powerOfTwo(octave);
         const Eigen::Vector3d half =
             std::max(kFeltSigmas * piece_.thickness_m, edge_m / 4) * piece_.normal;
         const bool isPlanar = !rays_.normal().isZero();
-        const int steps = std::max(1, static_cast<int>(std::ceil(spacing_m / edge_m)));
+        const int steps = std::max(1, static_cast<int>(std::ceil(half_m / edge_m)));
         const Eigen::Vector3d upright =
             isPlanar ? rays_.normal() : Eigen::Vector3d(piece_.normal.unitOrthogonal());
         // A planar laser marks a layer of cells, as coverage does.
-        const Eigen::Vector3d up = (isPlanar ? edge_m / 4 : spacing_m / steps) * upright;
-        const Eigen::Vector3d aside = spacing_m / steps * piece_.normal.cross(upright);
+        const Eigen::Vector3d up = (isPlanar ? edge_m / 4 : half_m / steps) * upright;
+        const Eigen::Vector3d aside = half_m / steps * piece_.normal.cross(upright);
         const int rows = isPlanar ? 1 : steps;
         for (int i = -rows; i <= rows; ++i)
             for (int j = -steps; j <= steps; ++j) {
