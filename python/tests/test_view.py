@@ -165,12 +165,12 @@ def run_view(*words, python=sys.executable):
 
 def test_the_program_says_what_is_wrong_and_leaves_nothing(tmp_path, inputs):
     hgmm.Map().save(tmp_path / "empty.hgmm")
-    (tmp_path / "bad.tum").write_text("0 1 2 3 4 5 6 7\n")
+    (tmp_path / "bad.tum").write_text("0 1 2 3 0 0 0 0\n")
     hgmm.Map().save(tmp_path / "room.hgmm")
     for words, reason in (
             [("missing.hgmm",), "missing.hgmm: No such file"],
             [("empty.hgmm",), "the map has no surfaces to show"],
-            [("room.hgmm", "--poses", tmp_path / "bad.tum"), "no unit quaternion"],
+            [("room.hgmm", "--poses", tmp_path / "bad.tum"), "null quaternion"],
             [("room.hgmm", "--points", tmp_path / "none"), "No such file"]):
         done = run_view(tmp_path / words[0], *words[1:])
         assert done.returncode == 1 and reason in done.stderr and done.stderr.count("\n") == 1

@@ -29,7 +29,7 @@ class PythonPages : public ReplayFolder {
 
 TEST_F(PythonPages, WithoutPythonTheReportIsMetricsAlone) {
     std::filesystem::create_directory(path("r"));
-    std::ofstream(path("r/report.html")) << "of an earlier run";
+    std::ofstream(path("r/report.html")) << "<!DOCTYPE html>\nof an earlier run\n";
     const Outcome outcome = replay(room_ + " --split 3 --quiet --report " + path("r"));
     EXPECT_EQ(outcome.exitCode, 0);
     expectHas(outcome.err, "report.html was not made (/nowhere/python3 cannot be started");

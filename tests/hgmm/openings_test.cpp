@@ -6,9 +6,9 @@
 #include <random>
 #include <vector>
 
-#include "fusion/passed_surfaces.h"
 #include "fusion/ray_image.h"
 #include "hgmm/map.h"
+#include "occupancy/passed_surfaces.h"
 #include "planted_mixture.h"
 
 namespace hgmm {

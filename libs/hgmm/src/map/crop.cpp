@@ -30,9 +30,10 @@ class Crop {
         part.params = model_.params;
         part.origin = model_.origin;
         model_.coverage.copyAround(box_, part.coverage);
-        Coverage openings;
+        Coverage openings, once;
         model_.openings.cells().copyAround(box_, openings);
-        part.openings = Openings(std::move(openings), {});
+        model_.openings.once().copyAround(box_, once);
+        part.openings = Openings(std::move(openings), std::move(once));
         part.components = surfaces(part.coverage);
         part.freeSpace = freeSpace();
         part.modalities = model_.modalities.within(corners_);

@@ -8,12 +8,12 @@
 #include "fusion/missed.h"
 #include "fusion/novelty.h"
 #include "fusion/oversized.h"
-#include "fusion/passed_surfaces.h"
 #include "fusion/update.h"
 #include "hgmm/em.h"
 #include "hgmm/hierarchy.h"
 #include "hgmm/map.h"
 #include "map/model.h"
+#include "occupancy/passed_surfaces.h"
 #include "scan/cells.h"
 
 namespace hgmm {

@@ -32,6 +32,7 @@ class Openings {
                const Coverage::Rays& rays);
     void merge(const Openings& other, const Pose& T_local_other) {
         cells_.merge(other.cells_, T_local_other);
+        once_.merge(other.once_, T_local_other);
     }
 
     /// 1 in openings, 0 from half a cell beside them, continuous. T is double or Dual.

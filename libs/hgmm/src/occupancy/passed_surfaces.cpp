@@ -1,6 +1,5 @@
-#include "fusion/passed_surfaces.h"
+#include "occupancy/passed_surfaces.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -13,7 +12,7 @@ namespace hgmm {
 namespace {
 
 /// A tile, evenly filled, ends at sqrt(3) standard deviations.
-constexpr double kTileSigmas2 = 3.0;
+constexpr double kTileReach2 = 3.0;
 /// Pieces of surfaces are at least so many times wider than thick; others, as bushes and
 /// corners, let rays pass and are still there.
 constexpr double kWidthPerThickness = 7.0;
@@ -62,7 +61,7 @@ class Passage {
         const double spacing_m = rays_.spacing_rad() * *range_m;
         if (spacing_m > kSparsest_m) return;
         const int octave = Openings::octaveAt(*range_m, rays_);
-        if (2.0 * std::sqrt(kTileSigmas2) * piece_.width_m < powerOfTwo(octave)) return;
+        if (2.0 * std::sqrt(kTileReach2) * piece_.width_m < powerOfTwo(octave)) return;
         markAbout(origin_ + *range_m * ray.direction, octave, spacing_m / 2, passed);
     }
 
@@ -102,7 +101,7 @@ class Passage {
             (ray.length_m - range_m) * std::abs(approach) < clear_m)
             return std::nullopt;
         const Eigen::Vector3f place = (origin_ + range_m * ray.direction).cast<float>();
-        if (!(factor_.squaredMahalanobis(place.data()) <= float(kTileSigmas2)))
+        if (!(factor_.squaredMahalanobis(place.data()) <= float(kTileReach2)))
             return std::nullopt;
         return range_m;
     }
@@ -127,7 +126,7 @@ Coverage passedSurfaces(const Mixture<3>& surfaces, const ComponentIndex& index,
         const Gaussian<3> component = surfaces[i];
         const Eigen::Vector3d towards = component.mean - image.origin();
         const double range_m = towards.norm(),
-                     extent_m = std::sqrt(kTileSigmas2 * component.covariance.trace());
+                     extent_m = std::sqrt(kTileReach2 * component.covariance.trace());
         if (!(range_m > extent_m)) continue;
         Passage passage(component, index.factor(i), image.origin(), rays);
         image.visitAround(towards / range_m, std::min(0.6, extent_m / range_m),
