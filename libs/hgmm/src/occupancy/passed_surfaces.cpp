@@ -16,6 +16,9 @@ constexpr double kTileReach2 = 3.0;
 /// Pieces of surfaces are at least so many times wider than thick; others, as bushes and
 /// corners, let rays pass and are still there.
 constexpr double kWidthPerThickness = 7.0;
+/// Nor thicker than range noise makes them: so thick they may be, however narrow, down to
+/// a width of four times that [m].
+constexpr double kNoise_m = 0.025, kWidthPerNoise = 4.0;
 /// Rays farther apart do not tell: too few end beside an edge [m].
 constexpr double kSparsest_m = 0.125;
 /// Rays end so many standard deviations behind what they go through, and by what poses may
@@ -90,7 +93,9 @@ class Passage {
 
     /// Distance at which it does.
     std::optional<double> goesThrough(const RayImage::Ray& ray) const {
-        if (piece_.thickness_m * kWidthPerThickness > piece_.width_m) return std::nullopt;
+        const double widthPerThickness =
+            piece_.thickness_m < kNoise_m ? kWidthPerNoise : kWidthPerThickness;
+        if (piece_.thickness_m * widthPerThickness > piece_.width_m) return std::nullopt;
         const double approach = piece_.normal.dot(ray.direction);
         const double range_m = height_m_ / approach;
         if (!(range_m > 0 && range_m < ray.length_m)) return std::nullopt;
