@@ -16,9 +16,9 @@ constexpr double kTileReach2 = 3.0;
 /// Pieces of surfaces are at least so many times wider than thick; others, as bushes and
 /// corners, let rays pass and are still there.
 constexpr double kWidthPerThickness = 7.0;
-/// Nor thicker than range noise makes them: so thick they may be, however narrow, down to
-/// a width of four times that [m].
-constexpr double kNoise_m = 0.025, kWidthPerNoise = 4.0;
+/// Range noise and shallow steps, as of a door in its frame, make narrow pieces thick: less
+/// thick ones need be four times wider only [m].
+constexpr double kNoise_m = 0.04, kWidthPerNoise = 4.0;
 /// Rays farther apart do not tell: too few end beside an edge [m].
 constexpr double kSparsest_m = 0.125;
 /// Rays end so many standard deviations behind what they go through, and by what poses may
