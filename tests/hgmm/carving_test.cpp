@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hgmm/params.h"
 #include "index/coarse_grid.h"
 #include "planted_mixture.h"
 
