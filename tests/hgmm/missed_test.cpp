@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
 #include "hgmm/map.h"
 #include "planted_mixture.h"
@@ -41,11 +42,11 @@ struct Asked {
                                       float maxSupport = 40.F) const {
         ComponentIndex index;
         index.rebuild(surfaces);
-        CoarseGrid grid;
-        for (std::uint32_t i = 0; i < surfaces.size(); ++i)
-            grid.add(i, surfaces[i].mean.cast<float>());
-        return hgmm::missed(surfaces, hit, maxSupport, {ends, limit, kSpacing_rad}, index,
-                            grid);
+        std::vector<std::uint32_t> all(surfaces.size());
+        std::iota(all.begin(), all.end(), 0U);
+        const RayImage image(ends, kSensor);
+        return hgmm::missed(surfaces, hit, maxSupport, {image, limit, kSpacing_rad}, index,
+                            all);
     }
 };
 

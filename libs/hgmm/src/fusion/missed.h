@@ -3,17 +3,17 @@
 #include <vector>
 
 #include "fusion/oversized.h"
+#include "fusion/ray_image.h"
 #include "hgmm/mixture.h"
-#include "index/coarse_grid.h"
 #include "index/component_index.h"
 
 namespace hgmm {
 
 /// The rays of one scan.
 struct ScanRays {
-    const Mixture<3>& ends;       ///< in the frame of the surfaces
-    const ThicknessLimit& limit;  ///< with the sensor's origin
-    double spacing_rad;           ///< angle between neighbours [rad], >= 0
+    const RayImage& image;  ///< in the frame of the surfaces
+    const ThicknessLimit& limit;
+    double spacing_rad;  ///< angle between neighbours [rad], >= 0
 };
 
 /// Components that a scan had a ray for and did not hit: dust, and what range noise put
@@ -25,11 +25,12 @@ struct ScanRays {
 /// end before it by more than a surface may be thick (ThicknessLimit).
 /// @param hit rows that the scan gave support to, rising
 /// @param maxSupport components of so many hits or more are not asked for [count]
-/// @param index, grid of the surfaces
+/// @param index of the surfaces
+/// @param near rows of components that may be in view, rising
 /// @return rows, rising
 std::vector<std::uint32_t> missed(const Mixture<3>& surfaces,
                                   const std::vector<std::uint32_t>& hit, float maxSupport,
                                   const ScanRays& rays, const ComponentIndex& index,
-                                  const CoarseGrid& grid);
+                                  const std::vector<std::uint32_t>& near);
 
 }  // namespace hgmm

@@ -32,6 +32,7 @@ RayImage::RayImage(const Mixture<3>& ends, const Eigen::Vector3d& origin)
         const auto range = static_cast<float>(length);
         if (nearest_m_[bin] == 0.F || range < nearest_m_[bin]) nearest_m_[bin] = range;
         farthest_m_[bin] = std::max(farthest_m_[bin], range);
+        longest_m_ = std::max(longest_m_, length);
     }
     for (std::size_t bin = 0; bin < kAllBins; ++bin) first_[bin + 1] += first_[bin];
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);

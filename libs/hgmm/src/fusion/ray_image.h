@@ -25,11 +25,24 @@ class RayImage {
     /// where there is none in its own bin.
     float nearestRange(const Eigen::Vector3d& direction) const;
 
-    /// Calls visit(ray) for the rays of all bins that reach within an angle, up to 0.6 rad,
-    /// of a direction and hold one of at least `length_m`, in a fixed order.
+    /// Length of the longest ray [m]; 0 without any.
+    double longest_m() const { return longest_m_; }
+
+    /// Whether isWanted(ray) holds of one of the rays of all bins that reach within an
+    /// angle, up to 0.6 rad, of a direction and hold a ray of at least `length_m`. They are
+    /// asked in a fixed order, up to the first of which it holds.
+    template <typename Predicate>
+    bool anyAround(const Eigen::Vector3d& direction, double angle_rad, double length_m,
+                   Predicate&& isWanted) const;
+    /// Calls visit(ray) for all of them.
     template <typename Visitor>
     void visitAround(const Eigen::Vector3d& direction, double angle_rad, double length_m,
-                     Visitor&& visit) const;
+                     Visitor&& visit) const {
+        anyAround(direction, angle_rad, length_m, [&](const Ray& ray) {
+            visit(ray);
+            return false;
+        });
+    }
 
  private:
     static constexpr int kBins = 45;  // an axis of a face: 2 degrees
@@ -51,11 +64,12 @@ class RayImage {
     std::vector<std::uint32_t> first_;  ///< of each bin in rays_, and their number
     std::vector<float> nearest_m_;      ///< of each bin; 0 where there is none
     std::vector<float> farthest_m_;     ///< likewise
+    double longest_m_ = 0.0;
 };
 
-template <typename Visitor>
-void RayImage::visitAround(const Eigen::Vector3d& direction, double angle_rad,
-                           double length_m, Visitor&& visit) const {
+template <typename Predicate>
+bool RayImage::anyAround(const Eigen::Vector3d& direction, double angle_rad,
+                         double length_m, Predicate&& isWanted) const {
     for (int face = 0; face < 6; ++face) {
         const int axis = face / 2;
         const double depth = (face % 2 == 0 ? 1 : -1) * direction[axis];
@@ -74,9 +88,10 @@ void RayImage::visitAround(const Eigen::Vector3d& direction, double angle_rad,
                 const std::size_t bin = numberOf(face, row, col);
                 if (!(double(farthest_m_[bin]) >= length_m)) continue;
                 for (std::uint32_t k = first_[bin]; k < first_[bin + 1]; ++k)
-                    visit(rays_[k]);
+                    if (isWanted(rays_[k])) return true;
             }
     }
+    return false;
 }
 
 }  // namespace hgmm

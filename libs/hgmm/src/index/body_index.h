@@ -12,7 +12,7 @@ namespace hgmm {
 /// octaves below their own size, so that next to nothing is passed over. Memory follows the
 /// cells that are touched.
 ///
-/// Cells lie in one open-addressing table whose members are stored contiguously.
+/// Cells lie in one table; the members of each are stored contiguously.
 class BodyIndex {
  public:
     using Box = BoxCells::Box;
@@ -49,40 +49,24 @@ class BodyIndex {
     std::size_t liveBytes() const;
 
  private:
-    static constexpr int kMinOctave = BoxCells::kMinOctave,
-                         kMaxOctave = BoxCells::kMaxOctave;
     using Placement = BoxCells;
+    using Cell = BoxCells::Cell;
     /// A cell's members are pool_[begin .. begin + count); room for 1 << capacityLog2. A
     /// single one, as most cells have, is `begin` itself: capacityLog2 is 0.
-    struct Slot {
-        std::uint64_t key = kUnused;
+    struct Members {
         std::uint32_t begin = 0;
         std::uint32_t count : 27;
         std::uint32_t capacityLog2 : 5;
-        Slot() : count(0), capacityLog2(0) {}
-        bool used() const { return key != kUnused; }
+        Members() : count(0), capacityLog2(0) {}
     };
 
-    static constexpr std::uint64_t kUnused = ~std::uint64_t{0};  ///< no cell has this key
-    static constexpr int kOctaves = kMaxOctave - kMinOctave + 1;
-
-    static std::uint64_t keyOf(int octave, std::int32_t x, std::int32_t y, std::int32_t z) {
-        constexpr std::uint64_t mask = (1U << 19U) - 1U;
-        return std::uint64_t(octave - kMinOctave) << 57U |
-               (std::uint64_t(x) & mask) << 38U | (std::uint64_t(y) & mask) << 19U |
-               (std::uint64_t(z) & mask);
-    }
-    static std::size_t hash(std::uint64_t key) {
-        key *= 0x9E3779B97F4A7C15ULL;
-        return static_cast<std::size_t>(key ^ key >> 32U);
-    }
     /// What a test of bodies says of a cell.
     template <typename Test>
-    static bool holds(Test&& test, int octave, std::int32_t x, std::int32_t y,
-                      std::int32_t z) {
+    static bool holds(Test&& test, int octave, const Cell& cell) {
         const float edge = floatPowerOfTwo(octave);
-        const float centre[3] = {(float(x) + 0.5F) * edge, (float(y) + 0.5F) * edge,
-                                 (float(z) + 0.5F) * edge};
+        const float centre[3] = {(float(cell[0]) + 0.5F) * edge,
+                                 (float(cell[1]) + 0.5F) * edge,
+                                 (float(cell[2]) + 0.5F) * edge};
         return test(centre, 0.5F * edge);
     }
     Placement placementOf(const Box& box) const {
@@ -92,46 +76,29 @@ class BodyIndex {
     void place(std::uint32_t i, const Placement& placement);
     template <typename Visitor>
     static void forEachCell(const Placement& p, Visitor&& visit);
-    /// Counts a box in or out.
-    void count(int octave, int boxes);
-    const std::uint32_t* membersOf(const Slot& slot) const {
-        return slot.capacityLog2 == 0 ? &slot.begin : pool_.data() + slot.begin;
+    const std::uint32_t* membersOf(const Members& members) const {
+        return members.capacityLog2 == 0 ? &members.begin : pool_.data() + members.begin;
     }
-    std::uint32_t* membersOf(Slot& slot) {
-        return slot.capacityLog2 == 0 ? &slot.begin : pool_.data() + slot.begin;
+    std::uint32_t* membersOf(Members& members) {
+        return members.capacityLog2 == 0 ? &members.begin : pool_.data() + members.begin;
     }
-    const Slot* find(std::uint64_t key) const;
-    Slot& findOrAdd(std::uint64_t key);
-    void growTable(std::size_t slots);
     std::uint32_t allocate(unsigned capacityLog2);
     void add(std::uint64_t key, std::uint32_t i);
     void remove(std::uint64_t key, std::uint32_t i);
 
     Cells cells_;
     std::vector<Placement> placements_;
-    std::vector<Slot> slots_;
-    std::size_t usedSlots_ = 0;
+    PackedCellTable<Members> table_;
     std::vector<std::uint32_t> pool_;
     std::array<std::vector<std::uint32_t>, 32> free_;  ///< begins of unused runs, by size
-    std::array<std::uint32_t, kOctaves> boxesInOctave_{};
-    std::array<std::int8_t, kOctaves>
-        usedOctaves_{};  ///< the first usedOctaveCount_, rising
-    int usedOctaveCount_ = 0;
+    OctavesInUse octaves_;
 };
-
-inline const BodyIndex::Slot* BodyIndex::find(std::uint64_t key) const {
-    const std::size_t mask = slots_.size() - 1;
-    for (std::size_t s = hash(key) & mask;; s = (s + 1) & mask) {
-        if (!slots_[s].used()) return nullptr;
-        if (slots_[s].key == key) return &slots_[s];
-    }
-}
 
 template <typename Visitor>
 void BodyIndex::forEachCell(const Placement& p, Visitor&& visit) {
     for (std::int32_t x = p.low[0]; x <= p.high[0]; ++x)
         for (std::int32_t y = p.low[1]; y <= p.high[1]; ++y)
-            for (std::int32_t z = p.low[2]; z <= p.high[2]; ++z) visit(x, y, z);
+            for (std::int32_t z = p.low[2]; z <= p.high[2]; ++z) visit(Cell{x, y, z});
 }
 
 template <typename Touches, typename Touched>
@@ -141,29 +108,29 @@ void BodyIndex::update(std::uint32_t i, const Box& box, Touches&& touches,
     const bool isNew = i >= size(), stays = !isNew && placements_[i] == p;
     if (!isNew && !stays) {
         const Placement& old = placements_[i];
-        forEachCell(old, [&](auto... cell) {
-            if (holds(touched, old.octave, cell...)) remove(keyOf(old.octave, cell...), i);
+        forEachCell(old, [&](const Cell& cell) {
+            if (holds(touched, old.octave, cell))
+                remove(PackedCellKeys::of(old.octave, cell), i);
         });
     }
     place(i, p);
     // Most cells of a body that moved a little are those that it touched before.
-    forEachCell(p, [&](auto... cell) {
-        const bool was = stays && holds(touched, p.octave, cell...);
-        const bool is = holds(touches, p.octave, cell...);
-        if (was && !is) remove(keyOf(p.octave, cell...), i);
-        if (is && !was) add(keyOf(p.octave, cell...), i);
+    forEachCell(p, [&](const Cell& cell) {
+        const bool was = stays && holds(touched, p.octave, cell);
+        const bool is = holds(touches, p.octave, cell);
+        if (was && !is) remove(PackedCellKeys::of(p.octave, cell), i);
+        if (is && !was) add(PackedCellKeys::of(p.octave, cell), i);
     });
 }
 
 template <typename Visitor>
 void BodyIndex::visitCandidates(float x, float y, float z, Visitor&& visit) const {
-    for (int o = 0; o < usedOctaveCount_; ++o) {
-        const int octave = usedOctaves_[o];
-        const BoxCells::Cell cell = BoxCells::cellOf({x, y, z}, octave);
-        const Slot* slot = find(keyOf(octave, cell[0], cell[1], cell[2]));
-        if (slot == nullptr) continue;
-        const std::uint32_t* member = membersOf(*slot);
-        for (std::uint32_t k = 0; k < slot->count; ++k) visit(member[k]);
+    for (const int octave : octaves_) {
+        const Members* members =
+            table_.find(PackedCellKeys::of(octave, BoxCells::cellOf({x, y, z}, octave)));
+        if (members == nullptr) continue;
+        const std::uint32_t* member = membersOf(*members);
+        for (std::uint32_t k = 0; k < members->count; ++k) visit(member[k]);
     }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/hash_table.h"
 #include "base/power_of_two.h"
 
 namespace hgmm {
@@ -62,6 +63,54 @@ struct BoxCells {
             meets = meets && first[d] <= high[d] && low[d] <= last[d];
         return meets;
     }
+};
+
+/// Cells of all octaves as numbers: 7 bits for the octave, 19 for each axis. Cells that are
+/// 2^19 apart share one.
+struct PackedCellKeys {
+    static std::uint64_t of(int octave, const BoxCells::Cell& cell) {
+        constexpr std::uint64_t mask = (1U << 19U) - 1U;
+        std::uint64_t key = std::uint64_t(octave - BoxCells::kMinOctave);
+        for (const std::int32_t c : cell) key = key << 19U | (std::uint64_t(c) & mask);
+        return key;
+    }
+    static std::uint64_t unused() { return ~std::uint64_t{0}; }
+    static std::uint64_t hash(std::uint64_t key) {
+        key *= 0x9E3779B97F4A7C15ULL;
+        return key ^ key >> 32U;
+    }
+};
+
+/// Values by such a number.
+template <typename Value>
+using PackedCellTable = HashTable<std::uint64_t, Value, PackedCellKeys>;
+
+/// Which octaves any box has.
+class OctavesInUse {
+ public:
+    void add(int octave) { count(octave, 1); }
+    void remove(int octave) { count(octave, -1); }
+    /// Rising.
+    const std::int8_t* begin() const { return used_.data(); }
+    const std::int8_t* end() const { return used_.data() + usedCount_; }
+
+ private:
+    static constexpr int kOctaves = BoxCells::kMaxOctave - BoxCells::kMinOctave + 1;
+
+    void count(int octave, int boxes) {
+        std::uint32_t& here = boxes_[octave - BoxCells::kMinOctave];
+        const bool wasUsed = here > 0;
+        here += static_cast<std::uint32_t>(boxes);
+        if (wasUsed == (here > 0)) return;
+        usedCount_ = 0;
+        for (int o = 0; o < kOctaves; ++o)
+            if (boxes_[o] > 0)
+                used_[usedCount_++] = static_cast<std::int8_t>(o + BoxCells::kMinOctave);
+    }
+
+    std::array<std::uint32_t, kOctaves> boxes_{};
+    std::array<std::int8_t, kOctaves> used_{};
+    int usedCount_ = 0;
 };
 
 /// Calls visit(cell) for each cell of an octave that the ray from `start` along the unit

@@ -49,49 +49,10 @@ void BoxIndex<kBlockShift>::forEachBlock(const BoxCells& cells, Visitor&& visit)
 }
 
 template <int kBlockShift>
-void BoxIndex<kBlockShift>::growTable() {
-    std::vector<Slot> old(slots_.size() + slots_.size() / 4 + 16);
-    old.swap(slots_);
-    for (const Slot& slot : old) {
-        if (!slot.used()) continue;
-        std::size_t s = homeOf(slot.key);
-        while (slots_[s].used()) s = next(s);
-        slots_[s] = slot;
-    }
-}
-
-template <int kBlockShift>
-auto BoxIndex<kBlockShift>::findOrAdd(std::uint64_t key) -> Slot& {
-    if (3 * (usedSlots_ + 1) > 2 * slots_.size()) growTable();
-    std::size_t s = homeOf(key);
-    while (slots_[s].used() && slots_[s].key != key) s = next(s);
-    if (!slots_[s].used()) {
-        slots_[s].key = key;
-        ++usedSlots_;
-    }
-    return slots_[s];
-}
-
-template <int kBlockShift>
-void BoxIndex<kBlockShift>::erase(Slot& slot) {
-    auto hole = static_cast<std::size_t>(&slot - slots_.data());
-    // Those behind it move up, unless their own place is behind the hole.
-    for (std::size_t s = next(hole); slots_[s].used(); s = next(s)) {
-        const std::size_t home = homeOf(slots_[s].key);
-        const bool stays = hole <= s ? hole < home && home <= s : hole < home || home <= s;
-        if (stays) continue;
-        slots_[hole] = slots_[s];
-        hole = s;
-    }
-    slots_[hole] = Slot{};
-    --usedSlots_;
-}
-
-template <int kBlockShift>
-std::uint32_t BoxIndex<kBlockShift>::placeOf(std::uint32_t i, const Slot& slot) const {
-    const Entry* const first = entries_.data(slot.run);
+std::uint32_t BoxIndex<kBlockShift>::placeOf(std::uint32_t i, const PoolRun& run) const {
+    const Entry* const first = entries_.data(run);
     return static_cast<std::uint32_t>(
-        std::partition_point(first, first + slot.run.count,
+        std::partition_point(first, first + run.count,
                              [i](const Entry& entry) { return entry.box < i; }) -
         first);
 }
@@ -99,24 +60,24 @@ std::uint32_t BoxIndex<kBlockShift>::placeOf(std::uint32_t i, const Slot& slot) 
 template <int kBlockShift>
 void BoxIndex<kBlockShift>::enter(std::uint32_t i, const BoxCells& cells) {
     forEachBlock(cells, [&](std::uint64_t key, std::uint32_t touched) {
-        Slot& slot = findOrAdd(key);
-        entries_.insert(slot.run, placeOf(i, slot), entryOf(i, touched));
+        PoolRun& run = *blocks_.tryEmplace(key, PoolRun{}).first;
+        entries_.insert(run, placeOf(i, run), entryOf(i, touched));
     });
-    count(cells.octave, 1);
+    octaves_.add(cells.octave);
 }
 
 template <int kBlockShift>
 void BoxIndex<kBlockShift>::leave(std::uint32_t i, const Point& centre) {
     const BoxCells cells = cellsOf(centre, reaches_[i]);
     forEachBlock(cells, [&](std::uint64_t key, std::uint32_t) {
-        Slot& slot = findOrAdd(key);
-        const std::uint32_t place = placeOf(i, slot);
-        if (place == slot.run.count || entries_.data(slot.run)[place].box != i)
+        PoolRun& run = *blocks_.tryEmplace(key, PoolRun{}).first;
+        const std::uint32_t place = placeOf(i, run);
+        if (place == run.count || entries_.data(run)[place].box != i)
             throw std::logic_error("BoxIndex: a box is not where its centre was");
-        entries_.erase(slot.run, place);
-        if (slot.run.count == 0) erase(slot);
+        entries_.erase(run, place);
+        if (run.count == 0) blocks_.erase(key);
     });
-    count(cells.octave, -1);
+    octaves_.remove(cells.octave);
 }
 
 template <int kBlockShift>
@@ -136,18 +97,6 @@ void BoxIndex<kBlockShift>::update(std::uint32_t i, const Box& box,
     }
     reaches_[i] = reachOf(box.centre, cells);
     enter(i, cells);
-}
-
-template <int kBlockShift>
-void BoxIndex<kBlockShift>::count(int octave, int boxes) {
-    std::uint32_t& inOctave = boxesInOctave_[octave - kMinOctave];
-    const bool wasUsed = inOctave > 0;
-    inOctave += static_cast<std::uint32_t>(boxes);
-    if (wasUsed == (inOctave > 0)) return;
-    usedOctaveCount_ = 0;
-    for (int o = 0; o < kOctaves; ++o)
-        if (boxesInOctave_[o] > 0)
-            usedOctaves_[usedOctaveCount_++] = static_cast<std::int8_t>(o + kMinOctave);
 }
 
 template class BoxIndex<0>;

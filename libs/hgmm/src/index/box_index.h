@@ -67,7 +67,9 @@ class BoxIndex {
     void visitCandidates(const CellOrder& points, std::size_t begin, std::size_t end,
                          Visitor&& visit) const;
     /// Octave of the smallest cells in use; 0 if there are none.
-    int smallestOctave() const { return usedOctaveCount_ > 0 ? usedOctaves_[0] : 0; }
+    int smallestOctave() const {
+        return octaves_.begin() != octaves_.end() ? *octaves_.begin() : 0;
+    }
 
     /// Calls visit(i) for each box in whose cells the ray from `start` along the unit
     /// vector `direction` comes within `length` [m], possibly several times.
@@ -77,13 +79,12 @@ class BoxIndex {
 
     /// Heap held [bytes].
     std::size_t liveBytes() const {
-        return reaches_.capacity() * sizeof(Reach) + slots_.capacity() * sizeof(Slot) +
+        return reaches_.capacity() * sizeof(Reach) + blocks_.liveBytes() +
                entries_.liveBytes();
     }
 
  private:
     using Cell = BoxCells::Cell;
-    static constexpr int kOctaves = kMaxOctave - kMinOctave + 1;
 
     /// Cells from that of the centre to the ends of a box, below and above, along an axis.
     /// Boxes are at most two cells wide, and rounding makes that five.
@@ -108,22 +109,14 @@ class BoxIndex {
         else
             return {box, cells};
     }
-    struct Slot {
-        std::uint64_t key = kUnused;
-        PoolRun run;  ///< rising
-        bool used() const { return key != kUnused; }
-    };
-    static constexpr std::uint64_t kUnused = ~std::uint64_t{0};  ///< no block has this key
 
-    std::uint64_t keyOf(int octave, const Cell& cell) const;
+    /// Of the block that holds a cell.
+    static std::uint64_t keyOf(int octave, const Cell& cell) {
+        return PackedCellKeys::of(octave, {cell[0] >> kBlockShift, cell[1] >> kBlockShift,
+                                           cell[2] >> kBlockShift});
+    }
     /// The bits of an entry that touches a cell.
     std::uint32_t bitsOf(const Cell& cell) const;
-    std::size_t homeOf(std::uint64_t key) const;
-    std::size_t next(std::size_t s) const { return s + 1 == slots_.size() ? 0 : s + 1; }
-    const Slot* find(std::uint64_t key) const;
-    Slot& findOrAdd(std::uint64_t key);
-    void erase(Slot& slot);
-    void growTable();
 
     static Reach reachOf(const Point& centre, const BoxCells& cells);
     BoxCells cellsOf(const Point& centre, const Reach& reach) const;
@@ -131,32 +124,17 @@ class BoxIndex {
     template <typename Visitor>
     void forEachBlock(const BoxCells& cells, Visitor&& visit) const;
     /// Where a box is in the list of a block, or would be entered.
-    std::uint32_t placeOf(std::uint32_t i, const Slot& slot) const;
+    std::uint32_t placeOf(std::uint32_t i, const PoolRun& run) const;
     void enter(std::uint32_t i, const BoxCells& cells);
     void leave(std::uint32_t i, const Point& centre);
-    /// Counts boxes in or out.
-    void count(int octave, int boxes);
     template <typename Visitor>
-    void visitCell(const Slot& slot, const Cell& cell, Visitor&& visit) const;
+    void visitCell(const PoolRun& run, const Cell& cell, Visitor&& visit) const;
 
     std::vector<Reach> reaches_;
-    std::vector<Slot> slots_;
-    std::size_t usedSlots_ = 0;
+    PackedCellTable<PoolRun> blocks_;  ///< rising by box
     RunPool<Entry> entries_;
-    std::array<std::uint32_t, kOctaves> boxesInOctave_{};
-    std::array<std::int8_t, kOctaves>
-        usedOctaves_{};  ///< the first usedOctaveCount_, rising
-    int usedOctaveCount_ = 0;
+    OctavesInUse octaves_;
 };
-
-template <int kBlockShift>
-std::uint64_t BoxIndex<kBlockShift>::keyOf(int octave, const Cell& cell) const {
-    constexpr std::uint64_t mask = (1U << 19U) - 1U;
-    std::uint64_t key = std::uint64_t(octave - kMinOctave);
-    for (const std::int32_t c : cell)
-        key = key << 19U | (std::uint64_t(c >> kBlockShift) & mask);
-    return key;
-}
 
 template <int kBlockShift>
 std::uint32_t BoxIndex<kBlockShift>::bitsOf(const Cell& cell) const {
@@ -166,35 +144,18 @@ std::uint32_t BoxIndex<kBlockShift>::bitsOf(const Cell& cell) const {
 }
 
 template <int kBlockShift>
-std::size_t BoxIndex<kBlockShift>::homeOf(std::uint64_t key) const {
-    key *= 0x9E3779B97F4A7C15ULL;
-    key ^= key >> 32U;
-    return static_cast<std::size_t>(std::uint64_t(std::uint32_t(key)) * slots_.size() >>
-                                    32U);
-}
-
-template <int kBlockShift>
-auto BoxIndex<kBlockShift>::find(std::uint64_t key) const -> const Slot* {
-    if (slots_.empty()) return nullptr;
-    for (std::size_t s = homeOf(key);; s = next(s)) {
-        if (slots_[s].key == key) return &slots_[s];
-        if (!slots_[s].used()) return nullptr;
-    }
-}
-
-template <int kBlockShift>
 template <typename Visitor>
-void BoxIndex<kBlockShift>::visitCell(const Slot& slot, const Cell& cell,
+void BoxIndex<kBlockShift>::visitCell(const PoolRun& run, const Cell& cell,
                                       Visitor&& visit) const {
     constexpr std::uint32_t kAtOnce = 32;
-    const Entry* entry = entries_.data(slot.run);
+    const Entry* entry = entries_.data(run);
     if constexpr (kBlockShift == 0) {
-        for (std::uint32_t k = 0; k < slot.run.count; ++k) visit(entry[k].box);
+        for (std::uint32_t k = 0; k < run.count; ++k) visit(entry[k].box);
         return;
     }
     const std::uint32_t bits = bitsOf(cell);
     std::uint32_t found[kAtOnce];
-    for (std::uint32_t left = slot.run.count; left > 0;) {
+    for (std::uint32_t left = run.count; left > 0;) {
         const std::uint32_t n = std::min(left, kAtOnce);
         std::uint32_t count = 0;
         // Without branches, which would be guessed wrong.
@@ -211,11 +172,10 @@ template <int kBlockShift>
 template <typename Visitor>
 void BoxIndex<kBlockShift>::visitCandidates(float x, float y, float z,
                                             Visitor&& visit) const {
-    for (int o = 0; o < usedOctaveCount_; ++o) {
-        const int octave = usedOctaves_[o];
+    for (const int octave : octaves_) {
         const Cell cell = BoxCells::cellOf({x, y, z}, octave);
-        const Slot* slot = find(keyOf(octave, cell));
-        if (slot != nullptr) visitCell(*slot, cell, visit);
+        const PoolRun* run = blocks_.find(keyOf(octave, cell));
+        if (run != nullptr) visitCell(*run, cell, visit);
     }
 }
 
@@ -223,21 +183,20 @@ template <int kBlockShift>
 template <typename Visitor>
 void BoxIndex<kBlockShift>::visitCandidates(const CellOrder& points, std::size_t begin,
                                             std::size_t end, Visitor&& visit) const {
-    for (int o = 0; o < usedOctaveCount_; ++o) {
-        const int octave = usedOctaves_[o];
+    for (const int octave : octaves_) {
         const auto cellAt = [&](std::size_t k) {
             return BoxCells::cellOf({points.x[k], points.y[k], points.z[k]}, octave);
         };
         Cell cell{}, following = begin < end ? cellAt(begin) : Cell{};
-        std::uint64_t key = kUnused;
-        const Slot* slot = nullptr;
+        std::uint64_t key = PackedCellKeys::unused();
+        const PoolRun* run = nullptr;
         for (std::size_t first = begin, last = begin; first < end; first = last) {
             cell = following;
             for (++last; last < end && (following = cellAt(last)) == cell;) ++last;
             const std::uint64_t block = keyOf(octave, cell);
-            if (block != key) slot = find(key = block);
-            if (slot == nullptr) continue;
-            visitCell(*slot, cell, [&](std::uint32_t i) { visit(i, first, last); });
+            if (block != key) run = blocks_.find(key = block);
+            if (run == nullptr) continue;
+            visitCell(*run, cell, [&](std::uint32_t i) { visit(i, first, last); });
         }
     }
 }
@@ -246,13 +205,12 @@ template <int kBlockShift>
 template <typename Visitor>
 void BoxIndex<kBlockShift>::visitAlongRay(const float* start, const float* direction,
                                           float length, Visitor&& visit) const {
-    for (int o = 0; o < usedOctaveCount_; ++o) {
-        const int octave = usedOctaves_[o];
+    for (const int octave : octaves_) {
         const bool walked =
             walkRay(start, direction, length, octave,
                     1000.F + 4.F * static_cast<float>(size()), [&](const Cell& cell) {
-                        const Slot* slot = find(keyOf(octave, cell));
-                        if (slot != nullptr) visitCell(*slot, cell, visit);
+                        const PoolRun* run = blocks_.find(keyOf(octave, cell));
+                        if (run != nullptr) visitCell(*run, cell, visit);
                     });
         if (walked) continue;
         for (std::uint32_t i = 0; i < size(); ++i)

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -75,6 +76,49 @@ class CellBlocks {
     LatticeTable<Group> groups_;
     RunPool<Word> words_;
     std::size_t size_ = 0;
+};
+
+/// The cells of a lattice from one to another, both included.
+class CellRange {
+ public:
+    CellRange(const LatticeCell& low, const LatticeCell& high) : low_(low), high_(high) {}
+
+    double blockCount() const {
+        const LatticeCell a = CellBlocks::blockOf(low_), b = CellBlocks::blockOf(high_);
+        return (1.0 + b.x - a.x) * (1.0 + b.y - a.y) * (1.0 + b.z - a.z);
+    }
+    template <typename Visitor>
+    void forEachBlock(Visitor&& visit) const {
+        const LatticeCell a = CellBlocks::blockOf(low_), b = CellBlocks::blockOf(high_);
+        for (std::int32_t x = a.x; x <= b.x; ++x)
+            for (std::int32_t y = a.y; y <= b.y; ++y)
+                for (std::int32_t z = a.z; z <= b.z; ++z)
+                    visit(LatticeCell{low_.octave, x, y, z});
+    }
+    /// Those of a block of the lattice.
+    CellBlocks::Word cellsIn(const LatticeCell& block) const {
+        using Word = CellBlocks::Word;
+        const Word x = bitsOf(low_.x, high_.x, block.x),
+                   y = bitsOf(low_.y, high_.y, block.y),
+                   z = bitsOf(low_.z, high_.z, block.z);
+        Word layer = 0, cells = 0;
+        for (unsigned k = 0; k < 4; ++k)
+            if ((y >> k & 1U) != 0) layer |= x << 4 * k;
+        for (unsigned k = 0; k < 4; ++k)
+            if ((z >> k & 1U) != 0) cells |= layer << 16 * k;
+        return cells;
+    }
+
+ private:
+    /// Which of the four cells of a block along an axis.
+    static CellBlocks::Word bitsOf(std::int32_t low, std::int32_t high,
+                                   std::int32_t block) {
+        const std::int32_t first = std::max(low - 4 * block, 0),
+                           last = std::min(high - 4 * block, 3);
+        return last < first ? 0 : (2U << unsigned(last)) - (1U << unsigned(first));
+    }
+
+    LatticeCell low_, high_;
 };
 
 }  // namespace hgmm

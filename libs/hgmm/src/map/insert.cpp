@@ -112,56 +112,58 @@ std::size_t removeWeak(ComponentStore& store, std::vector<std::uint32_t> weakene
     return removed;
 }
 
-/// Components that rays may have met, rising.
-std::vector<std::uint32_t> inViewOf(const Mixture<3>& ends,
-                                    const Eigen::Vector3d& sensorOrigin,
+/// Components that rays may have met, or that lie as far behind their ends as a surface
+/// may be thick, rising.
+std::vector<std::uint32_t> inViewOf(const Mixture<3>& ends, const ScanRays& rays,
                                     const CoarseGrid& grid) {
-    Eigen::Vector3d low = sensorOrigin, high = sensorOrigin;
+    const double around_m = std::sqrt(rays.limit.maxVarianceAt(rays.image.longest_m()));
+    Eigen::Vector3d low = rays.image.origin(), high = low;
     for (int d = 0; d < 3; ++d) {
         const auto [least, most] =
             std::minmax_element(ends.mean[d].begin(), ends.mean[d].end());
-        low[d] = std::min<double>(low[d], *least);
-        high[d] = std::max<double>(high[d], *most);
+        low[d] = std::min<double>(low[d], *least) - around_m;
+        high[d] = std::max<double>(high[d], *most) + around_m;
     }
     return grid.within(low, high);
 }
 
-/// What rays that passed surfaces take away. Returns how many components lost support.
-std::size_t carve(const Mixture<3>& samples, const Mixture<3>& ends,
-                  const ScanSamples& scan, const Pose& T_local_sensor, Model& model,
-                  const QueryCache& cache, std::vector<std::uint32_t>& weakened) {
-    const CarvingParams& params = model.params.carving;
-    if (params.carvedSupport == 1.0) return 0;
-    ComponentStore& store = model.components;
-    const Eigen::Vector3d& origin = T_local_sensor.t;
-    const RayImage image(ends, origin);
-    const std::vector<std::uint32_t> near = inViewOf(ends, origin, cache.grid());
-    const Coverage::Rays rays(model.params.occupancy.coverage, scan.raySpacing_rad,
-                              T_local_sensor.R * scan.normalOfRays_sensor);
-    model.openings.learn(
-        passedSurfaces(store.surfaces(), cache.index(), near, kTrustedHits, image, rays),
-        samples, origin, rays);
-    const std::vector<std::uint32_t> seen = seenThrough(store.surfaces(), image, near);
-    for (const std::uint32_t i : seen) {
-        const double trusted = std::min(store.surfaces().support[i], kTrustedHits);
-        store.setSupport(i, static_cast<float>(trusted * params.carvedSupport));
+/// Multiplies supports, of which `trusted` hits count at most.
+void weaken(ComponentStore& store, const std::vector<std::uint32_t>& rows, double kept,
+            float trusted, std::vector<std::uint32_t>& weakened) {
+    for (const std::uint32_t i : rows) {
+        const double counted = std::min(store.surfaces().support[i], trusted);
+        store.setSupport(i, static_cast<float>(counted * kept));
     }
-    weakened.insert(weakened.end(), seen.begin(), seen.end());
-    return seen.size();
+    weakened.insert(weakened.end(), rows.begin(), rows.end());
 }
 
-/// Takes support from components of few hits that the scan missed.
-std::size_t decayMissed(ComponentStore& store, const QueryCache& cache,
-                        const std::vector<std::uint32_t>& hit, const ScanRays& rays,
-                        const CarvingParams& params, std::vector<std::uint32_t>& weakened) {
-    if (params.carvedSupport == 1.0) return 0;
-    const double kept = std::pow(params.carvedSupport, 1.0 / kMissesPerCarving);
-    const std::vector<std::uint32_t> rows =
-        missed(store.surfaces(), hit, kTrustedHits, rays, cache.index(), cache.grid());
-    for (const std::uint32_t i : rows)
-        store.setSupport(i, static_cast<float>(store.surfaces().support[i] * kept));
-    weakened.insert(weakened.end(), rows.begin(), rows.end());
-    return rows.size();
+/// What rays take from surfaces that they missed or passed.
+/// @param hit rows that the scan gave support to, rising
+void carve(const Mixture<3>& samples, const ScanSamples& scan, const Pose& T_local_sensor,
+           const ThicknessLimit& limit, const std::vector<std::uint32_t>& hit, Model& model,
+           const QueryCache& cache, std::vector<std::uint32_t>& weakened,
+           InsertReport& report) {
+    const double carved = model.params.carving.carvedSupport;
+    if (carved == 1.0) return;
+    ComponentStore& store = model.components;
+    const Mixture<3> ends = endsOfRays(samples, scan, T_local_sensor);
+    const RayImage image(ends, T_local_sensor.t);
+    const ScanRays rays{image, limit, scan.raySpacing_rad};
+    const std::vector<std::uint32_t> near = inViewOf(ends, rays, cache.grid());
+
+    const std::vector<std::uint32_t> missedRows =
+        missed(store.surfaces(), hit, kTrustedHits, rays, cache.index(), near);
+    weaken(store, missedRows, std::pow(carved, 1.0 / kMissesPerCarving), kTrustedHits,
+           weakened);
+    const Coverage::Rays cells(model.params.occupancy.coverage, scan.raySpacing_rad,
+                               limit.normalOfRays);
+    model.openings.learn(
+        passedSurfaces(store.surfaces(), cache.index(), near, kTrustedHits, image, cells),
+        samples, T_local_sensor.t, cells);
+    const std::vector<std::uint32_t> seen = seenThrough(store.surfaces(), image, near);
+    weaken(store, seen, carved, kTrustedHits, weakened);
+    report.componentsMissed = missedRows.size();
+    report.componentsCarved = seen.size();
 }
 
 /// What a scan did to the surfaces.
@@ -230,13 +232,9 @@ void insertSamples(const ScanSamples& scan, const Pose& T_local_sensor, Model& m
     const std::vector<std::uint32_t> updatedFree =
         model.freeSpace.insert(learned.bundles, sensorOrigin, cache.pyramid(),
                                params.occupancy.band, params.occupancy.freeSpace);
-    const Mixture<3> ends = endsOfRays(samples, scan, T_local_sensor);
     std::vector<std::uint32_t> weakened = std::move(learned.oversized);
-    report.componentsMissed =
-        decayMissed(store, cache, learned.hit, {ends, limit, scan.raySpacing_rad},
-                    params.carving, weakened);
-    report.componentsCarved =
-        carve(samples, ends, scan, T_local_sensor, model, cache, weakened);
+    carve(samples, scan, T_local_sensor, limit, learned.hit, model, cache, weakened,
+          report);
     report.componentsRemoved =
         removeWeak(store, std::move(weakened), params.carving.minSupport);
     cache.apply(store.takeChanges(), updatedFree);

@@ -41,38 +41,6 @@ void forEachCell(const LatticeCell& block, Coverage::Word word, Visitor&& visit)
     }
 }
 
-/// The cells of a lattice from one to another, both included.
-class CellRange {
- public:
-    CellRange(const LatticeCell& low, const LatticeCell& high) : low_(low), high_(high) {}
-
-    double blockCount() const {
-        const LatticeCell a = CellBlocks::blockOf(low_), b = CellBlocks::blockOf(high_);
-        return (1.0 + b.x - a.x) * (1.0 + b.y - a.y) * (1.0 + b.z - a.z);
-    }
-    template <typename Visitor>
-    void forEachBlock(Visitor&& visit) const {
-        const LatticeCell a = CellBlocks::blockOf(low_), b = CellBlocks::blockOf(high_);
-        for (std::int32_t x = a.x; x <= b.x; ++x)
-            for (std::int32_t y = a.y; y <= b.y; ++y)
-                for (std::int32_t z = a.z; z <= b.z; ++z)
-                    visit(LatticeCell{low_.octave, x, y, z});
-    }
-    /// Those of a block of the lattice.
-    Coverage::Word cellsIn(const LatticeCell& block) const {
-        Coverage::Word cells = 0;
-        forEachCell(block, kAllCells, [&](const LatticeCell& c) {
-            if (c.x >= low_.x && c.x <= high_.x && c.y >= low_.y && c.y <= high_.y &&
-                c.z >= low_.z && c.z <= high_.z)
-                cells |= bitOf(c.x, c.y, c.z);
-        });
-        return cells;
-    }
-
- private:
-    LatticeCell low_, high_;
-};
-
 /// A segment in units of a lattice's cells, by the share t of its length.
 class CellSegment {
  public:
@@ -197,18 +165,8 @@ unsigned Coverage::corners(const LatticeCell& low) const {
     return found;
 }
 
-void Coverage::clear(const Eigen::AlignedBox3d& box, const Coverage& kept) {
-    const std::vector<int> octaves = octaves_;
-    for (const int octave : octaves) {
-        const CellRange range(LatticeCell::at(box.min(), octave),
-                              LatticeCell::at(box.max(), octave));
-        range.forEachBlock([&](const LatticeCell& block) {
-            const Word marked = word(block);
-            if (marked == 0) return;
-            const Word cleared = marked & range.cellsIn(block) & ~kept.word(block);
-            if (cleared != 0) blocks_.unmark(block, cleared);
-        });
-    }
+void Coverage::unmark(const LatticeCell& block, Word cells) {
+    blocks_.unmark(block, cells);
     if (blocks_.size() == 0) octaves_.clear();
 }
 

@@ -82,13 +82,12 @@ class Coverage {
     }
     /// The cells of a block; none where there is no such block.
     Word word(const LatticeCell& block) const { return blocks_.word(block); }
-    /// Marks cells of a block.
+    /// Marks or unmarks cells of a block.
     void mark(const LatticeCell& block, Word cells);
     void mark(const LatticeCell& cell);
     /// Marks the cells of a lattice that a segment passes.
     void markSegment(int octave, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
-    /// Takes away the marked cells that a box touches, but for those that `kept` has.
-    void clear(const Eigen::AlignedBox3d& box, const Coverage& kept = {});
+    void unmark(const LatticeCell& block, Word cells);
 
     std::size_t blockCount() const { return blocks_.size(); }
     std::size_t liveBytes() const { return blocks_.liveBytes(); }

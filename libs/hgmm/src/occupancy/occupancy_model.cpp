@@ -99,12 +99,11 @@ std::array<float, 3> OccupancyModel::whitenedView(std::uint32_t i) const {
     return v;
 }
 
-OccupancyModel::Band OccupancyModel::bandOf(std::uint32_t i) const {
+OccupancyModel::Band OccupancyModel::bandOf(std::uint32_t i, float viewPrecision) const {
     const double range_m = surfaces_.views[i].range_m;
     Band band;
     band.peak = peakOf(surfaces_.rows.support[i], surfaces_.index.factor(i));
-    band.v = whitenedView(i);
-    for (const float v : band.v) band.viewPrecision += v * v;
+    band.viewPrecision = viewPrecision;
     if (band.viewPrecision > 0) band.tau_m = 1.F / std::sqrt(band.viewPrecision);
     band.width_m = static_cast<float>(params_.band.width(range_m));
     band.reach_m = static_cast<float>(params_.band.reach(range_m));

@@ -86,9 +86,8 @@ class OccupancyModel {
     /// The band of a surface component, made of its rows when asked. Stored, bands would
     /// take more memory than the rows themselves.
     struct Band {
-        std::array<float, 3> v{};   ///< its view, whitened; zero without a view
-        float viewPrecision = 0.F;  ///< |v|^2 = u^T Sigma^-1 u [1/m^2]
-        float tau_m = 0.F;          ///< 1 / |v|, thickness along the view
+        float viewPrecision = 0.F;  ///< u^T Sigma^-1 u [1/m^2]; 0 without a view
+        float tau_m = 0.F;          ///< its root's inverse, thickness along the view
         float width_m = 0.F, reach_m = 0.F;
         float freePerMetre = 0.F;
         float peak = 0.F;  ///< support times density at the mean [1/m^3]
@@ -144,10 +143,10 @@ class OccupancyModel {
     Sums<double> sums(const double* x) const;
     void addBands(const std::uint32_t* ids, int n, const float* point, const float* rest,
                   Sums<double>& sums) const;
-    Band bandOf(std::uint32_t i) const;
-    /// A component's view, whitened.
+    Band bandOf(std::uint32_t i, float viewPrecision) const;
+    /// A component's view, whitened; zero without a view.
     std::array<float, 3> whitenedView(std::uint32_t i) const;
-    void gatherPlace(std::uint32_t i, bands::Lanes& lanes, int k) const;
+    float gatherPlace(std::uint32_t i, bands::Lanes& lanes, int k) const;
     void gatherBand(const Band& band, bands::Lanes& lanes, int k) const;
     void addFree(const std::uint32_t* ids, float* squared, int n, const double* x,
                  Sums<double>& sums) const;

@@ -36,6 +36,10 @@ T tapered(const T& density) {
     return valueOf(density) > kCutDensity ? density - kCutDensity : T(0.0);
 }
 
+float squaredNorm(const std::array<float, 3>& v) {
+    return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+}
+
 bool isInside(const BoxCells::Box& box, const float* point) {
     // Without branches: three tests cost less than one that is guessed wrong.
     bool inside = true;
@@ -77,7 +81,8 @@ void OccupancyModel::addSide(std::uint32_t i, float viewPrecision, const T& heig
 
 void OccupancyModel::addBand(std::uint32_t i, const Dual* x, Sums<Dual>& sums) const {
     const Factor& factor = surfaces_.index.factor(i);
-    const Band band = bandOf(i);
+    const std::array<float, 3> view = whitenedView(i);
+    const Band band = bandOf(i, squaredNorm(view));
     Dual whitened[3];
     for (int row = 0; row < 3; ++row) {
         whitened[row] = 0.0;
@@ -94,8 +99,8 @@ void OccupancyModel::addBand(std::uint32_t i, const Dual* x, Sums<Dual>& sums) c
         sums.known += tapered(density);
         return;
     }
-    const Dual along = double(band.v[0]) * whitened[0] + double(band.v[1]) * whitened[1] +
-                       double(band.v[2]) * whitened[2];
+    const Dual along = double(view[0]) * whitened[0] + double(view[1]) * whitened[1] +
+                       double(view[2]) * whitened[2];
     const Dual beside = squared - along * along / precision;
     if (valueOf(beside) > kReach2) return;
 
@@ -197,19 +202,18 @@ void OccupancyModel::addBands(const std::uint32_t* ids, int n, const float* poin
     static thread_local bands::Lanes near{}, felt{};
     static thread_local bands::Places places{};
     static thread_local bands::Densities densities{};
-    for (int k = 0; k < n; ++k) gatherPlace(ids[k], near, k);
+    float viewPrecision[bands::kBlock];
+    for (int k = 0; k < n; ++k) viewPrecision[k] = gatherPlace(ids[k], near, k);
     bands::kernel().place(near, n, point, rest, places);
 
     std::uint32_t feltIds[bands::kBlock];
-    float viewPrecision[bands::kBlock];
     int count = 0;
     for (int k = 0; k < n; ++k) {
         if (!(places.beside[k] <= float(kReach2))) continue;
         places.beside[count] = places.beside[k];
         places.height[count] = places.height[k];
-        const Band band = bandOf(ids[k]);
-        gatherBand(band, felt, count);
-        viewPrecision[count] = band.viewPrecision;
+        viewPrecision[count] = viewPrecision[k];
+        gatherBand(bandOf(ids[k], viewPrecision[k]), felt, count);
         feltIds[count++] = ids[k];
     }
     bands::kernel().evaluate(felt, places, count, float(kCutDensity), densities);
@@ -225,20 +229,18 @@ void OccupancyModel::addBands(const std::uint32_t* ids, int n, const float* poin
     }
 }
 
-/// What bands::Kernel::place reads.
-void OccupancyModel::gatherPlace(std::uint32_t i, bands::Lanes& lanes, int k) const {
+/// What bands::Kernel::place reads. Returns |v|^2 of the view.
+float OccupancyModel::gatherPlace(std::uint32_t i, bands::Lanes& lanes, int k) const {
     const Factor& factor = surfaces_.index.factor(i);
     for (int d = 0; d < 3; ++d) lanes.mean[d][k] = factor.mean(d);
     for (int row = 0, entry = 0; row < 3; ++row)
         for (int col = 0; col <= row; ++col)
             lanes.factor[entry++][k] = factor.factor(row, col);
     const std::array<float, 3> v = whitenedView(i);
-    float precision = 0.F;
-    for (int d = 0; d < 3; ++d) {
-        lanes.view[d][k] = v[d];
-        precision += v[d] * v[d];
-    }
+    for (int d = 0; d < 3; ++d) lanes.view[d][k] = v[d];
+    const float precision = squaredNorm(v);
     lanes.precision[k] = precision > 0 ? precision : 1.F;
+    return precision;
 }
 
 /// What bands::Kernel::evaluate reads. Without a view all of the distance is beside.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace hgmm {
 
@@ -12,26 +13,48 @@ namespace {
 /// range [1].
 constexpr double kAsideAtOneMetre_m = 0.01, kAsidePerMetre = 0.005;
 
+std::vector<int> united(std::vector<int> a, const std::vector<int>& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    std::sort(a.begin(), a.end());
+    a.erase(std::unique(a.begin(), a.end()), a.end());
+    return a;
+}
+
 }  // namespace
 
-void Openings::learn(Coverage passed, const Mixture<3>& hits,
+Openings::Openings(Coverage cells, Coverage once)
+    : cells_(std::move(cells)), once_(std::move(once)) {
+    cells_.forEachBlock(
+        [this](const LatticeCell& block, Coverage::Word open) { once_.mark(block, open); });
+}
+
+void Openings::learn(const Coverage& passed, const Mixture<3>& hits,
                      const Eigen::Vector3d& sensorOrigin, const Coverage::Rays& rays) {
     if (passed.empty() && empty()) return;
-    const Coverage all = passed;
+    const std::vector<int> octaves = united(passed.octaves(), once_.octaves());
+    Coverage onlyPassed = passed;
     for (std::size_t i = 0; i < hits.size(); ++i) {
         const Eigen::Vector3d hit = hits[i].mean;
         const double range_m = (hit - sensorOrigin).norm();
         const Eigen::Vector3d around = Eigen::Vector3d::Constant(
             std::max(powerOfTwo(octaveAt(range_m, rays)) / 2,
                      kAsideAtOneMetre_m * std::sqrt(range_m) + kAsidePerMetre * range_m));
-        const Eigen::AlignedBox3d box(hit - around, hit + around);
-        passed.clear(box);
-        once_.clear(box);
-        cells_.clear(box, all);
+        for (const int octave : octaves) {
+            const CellRange near(LatticeCell::at(hit - around, octave),
+                                 LatticeCell::at(hit + around, octave));
+            near.forEachBlock([&](const LatticeCell& block) {
+                const Coverage::Word now = passed.word(block);
+                if ((now | once_.word(block)) == 0) return;
+                const Coverage::Word cells = near.cellsIn(block);
+                onlyPassed.unmark(block, cells);
+                // An open cell that holds an edge stays open.
+                once_.unmark(block, cells & ~(now & cells_.word(block)));
+                cells_.unmark(block, cells & ~now);
+            });
+        }
     }
-    passed.forEachBlock([&](const LatticeCell& block, Coverage::Word cells) {
-        const Coverage::Word before = once_.word(block);
-        cells_.mark(block, cells & before);
+    onlyPassed.forEachBlock([&](const LatticeCell& block, Coverage::Word cells) {
+        cells_.mark(block, cells & once_.word(block));
         once_.mark(block, cells);
     });
 }

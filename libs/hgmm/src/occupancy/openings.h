@@ -1,7 +1,6 @@
 #pragma once
 #include <Eigen/Core>
 #include <cstddef>
-#include <utility>
 
 #include "base/dual.h"
 #include "hgmm/mixture.h"
@@ -15,9 +14,8 @@ namespace hgmm {
 class Openings {
  public:
     Openings() = default;
-    /// @param once cells that one scan passed so far
-    Openings(Coverage cells, Coverage once)
-        : cells_(std::move(cells)), once_(std::move(once)) {}
+    /// @param once cells that a scan passed; those that are open need not be among them
+    Openings(Coverage cells, Coverage once);
 
     /// Octave of its cells at a distance w from the sensor [m]: finer than coverage's, for
     /// an opening ends where a wall begins.
@@ -28,8 +26,8 @@ class Openings {
     /// @param passed cells in which rays of a scan went through surfaces. Where its rays
     /// also end there is an edge: cells stay as they were.
     /// @param hits where its rays end, in the frame of the surfaces
-    void learn(Coverage passed, const Mixture<3>& hits, const Eigen::Vector3d& sensorOrigin,
-               const Coverage::Rays& rays);
+    void learn(const Coverage& passed, const Mixture<3>& hits,
+               const Eigen::Vector3d& sensorOrigin, const Coverage::Rays& rays);
     void merge(const Openings& other, const Pose& T_local_other) {
         cells_.merge(other.cells_, T_local_other);
         once_.merge(other.once_, T_local_other);
@@ -45,14 +43,15 @@ class Openings {
 
     const Coverage& cells() const { return cells_; }
     const Coverage& once() const { return once_; }
-    bool empty() const { return cells_.empty() && once_.empty(); }
+    bool empty() const { return once_.empty(); }
     std::size_t liveBytes() const { return cells_.liveBytes() + once_.liveBytes(); }
     bool operator==(const Openings& o) const {
         return cells_ == o.cells_ && once_ == o.once_;
     }
 
  private:
-    Coverage cells_, once_;
+    Coverage cells_;
+    Coverage once_;  ///< what one scan passed and none ended in since; open cells, too
 };
 
 }  // namespace hgmm

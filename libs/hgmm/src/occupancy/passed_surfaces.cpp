@@ -54,11 +54,8 @@ class Passage {
         : component_(component), factor_(factor), origin_(sensorOrigin), rays_(rays) {}
 
     void mark(const RayImage::Ray& ray, Coverage& passed) {
-        if (!hasPiece_) {
-            piece_ = pieceOf(component_, rays_.normal());
-            height_m_ = piece_.normal.dot(Eigen::Vector3d(component_.mean) - origin_);
-            hasPiece_ = true;
-        }
+        if (!hasPiece_) setPiece();
+        if (!isWide_) return;
         const std::optional<double> range_m = goesThrough(ray);
         if (!range_m) return;
         const double spacing_m = rays_.spacing_rad() * *range_m;
@@ -69,6 +66,15 @@ class Passage {
     }
 
  private:
+    void setPiece() {
+        piece_ = pieceOf(component_, rays_.normal());
+        height_m_ = piece_.normal.dot(Eigen::Vector3d(component_.mean) - origin_);
+        const double most =
+            piece_.thickness_m < kNoise_m ? kWidthPerNoise : kWidthPerThickness;
+        isWide_ = piece_.thickness_m * most <= piece_.width_m;
+        hasPiece_ = true;
+    }
+
     /// Marks the cells about a place in which the piece is felt. The ray stands for it up
     /// to half way to the next rays.
     void markAbout(const Eigen::Vector3d& place, int octave, double half_m,
@@ -93,9 +99,6 @@ class Passage {
 
     /// Distance at which it does.
     std::optional<double> goesThrough(const RayImage::Ray& ray) const {
-        const double widthPerThickness =
-            piece_.thickness_m < kNoise_m ? kWidthPerNoise : kWidthPerThickness;
-        if (piece_.thickness_m * widthPerThickness > piece_.width_m) return std::nullopt;
         const double approach = piece_.normal.dot(ray.direction);
         const double range_m = height_m_ / approach;
         if (!(range_m > 0 && range_m < ray.length_m)) return std::nullopt;
@@ -116,6 +119,7 @@ class Passage {
     const Eigen::Vector3d& origin_;
     const Coverage::Rays& rays_;
     bool hasPiece_ = false;  ///< the first ray makes it
+    bool isWide_ = false;
     Piece piece_{Eigen::Vector3d::Zero(), 0.0, 0.0};
     double height_m_ = 0.0;  ///< of its mean over the sensor, along its normal
 };
