@@ -74,9 +74,12 @@ TEST_F(Slam, WritesMapTrajectoryGraphAndKeyframes) {
     mrpt::maps::CSimpleMap keyframes;
     ASSERT_TRUE(keyframes.loadFromFile(path("out/keyframes.simplemap")));
     ASSERT_GT(keyframes.size(), 2U);
-    mrpt::poses::CPose3DPDF::Ptr pose;
-    mrpt::obs::CSensoryFrame::Ptr frame;
-    keyframes.get(keyframes.size() - 1, pose, frame);
+    mrpt::poses::CPose3DPDF::ConstPtr pose;
+    mrpt::obs::CSensoryFrame::ConstPtr frame;
+    for (const auto& keyframe : keyframes) {
+        pose = keyframe.pose;
+        frame = keyframe.sf;
+    }
     EXPECT_EQ(frame->size(), 1U);
     EXPECT_NEAR(pose->getMeanVal().x(), trajectory.back().T_world_frame.t.x(), 0.3);
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <hgmm/evaluation/planar_observation.h>
+#include <hgmm/mrpt_bridge/mrpt_compat.h>
 #include <hgmm/mrpt_bridge/observation_to_scan.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/poses/CPosePDFGaussian.h>
@@ -53,9 +54,9 @@ TEST(MetricMapBuilder, BuildsAMapFromItsStartOn) {
     EXPECT_GT(keyframes.size(), 10U);
     EXPECT_EQ(keyframes.size(), builder.getCurrentlyBuiltMapSize());
 
-    const auto* maps = builder.getCurrentlyBuiltMetricMap();
-    ASSERT_EQ(maps->maps.size(), 1U);
-    const auto& map = dynamic_cast<const mrpt::maps::CHGMMOccupancyMap&>(*maps->maps[0]);
+    const auto& maps = mrpt_bridge::referenceTo(builder.getCurrentlyBuiltMetricMap());
+    ASSERT_EQ(maps.maps.size(), 1U);
+    const auto& map = dynamic_cast<const mrpt::maps::CHGMMOccupancyMap&>(*maps.maps[0]);
     EXPECT_GT(map.model().occupancy({-4.0, -7.8, 0}).occupied, 0.5F);
     EXPECT_GT(map.model().occupancy({-4.0, -6.0, 0}).free, 0.5F);
 }

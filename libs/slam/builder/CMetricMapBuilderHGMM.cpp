@@ -1,3 +1,4 @@
+#include <hgmm/mrpt_bridge/mrpt_compat.h>
 #include <hgmm/mrpt_bridge/observation_to_scan.h>
 #include <hgmm/slam/odometry.h>
 #include <hgmm/slam/submap_slam.h>
@@ -164,7 +165,7 @@ unsigned int CMetricMapBuilderHGMM::getCurrentlyBuiltMapSize() {
     return static_cast<unsigned int>(impl_->keyframes.size());
 }
 
-const mrpt::maps::CMultiMetricMap* CMetricMapBuilderHGMM::getCurrentlyBuiltMetricMap()
+CMetricMapBuilderHGMM::BuiltMetricMap CMetricMapBuilderHGMM::getCurrentlyBuiltMetricMap()
     const {
     Impl& m = *impl_;
     if (m.metricMap.maps.empty()) {
@@ -175,11 +176,13 @@ const mrpt::maps::CMultiMetricMap* CMetricMapBuilderHGMM::getCurrentlyBuiltMetri
         map->model() = std::move(placed);
         m.metricMap.maps.push_back(map);
     }
-    return &m.metricMap;
+    return hgmm::mrpt_bridge::returnedAs<BuiltMetricMap>(m.metricMap);
 }
 
 void CMetricMapBuilderHGMM::saveCurrentEstimationToImage(const std::string& file, bool) {
-    getCurrentlyBuiltMetricMap()->maps.front()->saveMetricMapRepresentationToFile(file);
+    hgmm::mrpt_bridge::referenceTo(getCurrentlyBuiltMetricMap())
+        .maps.front()
+        ->saveMetricMapRepresentationToFile(file);
 }
 
 }  // namespace mrpt::slam

@@ -3,6 +3,7 @@
 #include <mrpt/version.h>
 
 #include <cstddef>
+#include <type_traits>
 
 /// Whether MRPT is of this release or a later one. MRPT_VERSION has two hexadecimal digits
 /// a part since 2.10.2, one before, so that older releases compare as lower.
@@ -79,6 +80,27 @@ auto intensitiesOf(const Cloud& cloud) {
 template <typename Coloured>
 bool hasColours(const Coloured& cloud) {
     return compat::colours(cloud, 0) == cloud.size();
+}
+
+/// What SLAM builders hand over, a pointer in MRPT 2.5 and a reference later, as a
+/// reference.
+template <typename Object>
+const Object& referenceTo(const Object* object) {
+    return *object;
+}
+template <typename Object>
+const Object& referenceTo(const Object& object) {
+    return object;
+}
+
+/// The other way round: a reference or a pointer, as Returned is.
+template <typename Returned, typename Object>
+Returned returnedAs(const Object& object) {
+    if constexpr (std::is_pointer_v<Returned>) {
+        return &object;
+    } else {
+        return object;
+    }
 }
 
 }  // namespace hgmm::mrpt_bridge

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace mrpt::slam {
 
@@ -18,6 +19,10 @@ namespace mrpt::slam {
 /// Not for concurrent use, but closures are looked for on a thread behind.
 class CMetricMapBuilderHGMM : public CMetricMapBuilder {
  public:
+    /// A pointer in MRPT 2.5, a reference in later releases.
+    using BuiltMetricMap =
+        decltype(std::declval<const CMetricMapBuilder&>().getCurrentlyBuiltMetricMap());
+
     /// Begins at the origin.
     /// Throws std::invalid_argument for options out of range.
     explicit CMetricMapBuilderHGMM(
@@ -47,7 +52,7 @@ class CMetricMapBuilderHGMM : public CMetricMapBuilder {
     unsigned int getCurrentlyBuiltMapSize() override;
     /// One CHGMMOccupancyMap, merged of the submaps when asked for. Holds until the next
     /// call of a function that is not const.
-    const mrpt::maps::CMultiMetricMap* getCurrentlyBuiltMetricMap() const override;
+    BuiltMetricMap getCurrentlyBuiltMetricMap() const override;
     /// Writes the files of CHGMMOccupancyMap::saveMetricMapRepresentationToFile with this
     /// prefix.
     void saveCurrentEstimationToImage(const std::string& file,
