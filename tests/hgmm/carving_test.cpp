@@ -82,11 +82,15 @@ Gaussian<3> plate(const Eigen::Vector3d& mean, const Eigen::Vector3d& sigma) {
     return g;
 }
 
+bool seenFrom(const Gaussian<3>& component, const RayImage& image) {
+    return isSeenThrough(component, image, Eigen::Vector3d::Zero());
+}
+
 TEST(SeenThrough, WhatStandsBeforeAWallButNotTheWallNorWhatIsBehind) {
     const RayImage image = wallAt(8);
     const Eigen::Vector3d sigma(0.01, 0.15, 0.15);
     const auto seen = [&](double x) {
-        return isSeenThrough(plate(kOrigin + Eigen::Vector3d(x, 0.7, 0.2), sigma), image);
+        return seenFrom(plate(kOrigin + Eigen::Vector3d(x, 0.7, 0.2), sigma), image);
     };
     EXPECT_TRUE(seen(3));
     EXPECT_TRUE(seen(7));
@@ -100,8 +104,8 @@ TEST(SeenThrough, WhatStandsBeforeAWallButNotTheWallNorWhatIsBehind) {
 TEST(SeenThrough, NotThroughNoiseThatIsAsWideAsTheStep) {
     const RayImage image = wallAt(8);
     const auto seen = [&](double noise) {
-        return isSeenThrough(plate(kOrigin + Eigen::Vector3d(7.5, 0, 0), {noise, 0.1, 0.1}),
-                             image);
+        return seenFrom(plate(kOrigin + Eigen::Vector3d(7.5, 0, 0), {noise, 0.1, 0.1}),
+                        image);
     };
     EXPECT_TRUE(seen(0.05));
     EXPECT_FALSE(seen(0.25));
@@ -114,13 +118,45 @@ TEST(SeenThrough, NotTheFloorAtGrazingAngles) {
             add(floor, {kOrigin.x() + x, kOrigin.y() + y, 0});
     const RayImage image(floor, kOrigin);
     for (double x = 0.5; x < 18; x += 0.25)
-        EXPECT_FALSE(isSeenThrough(
+        EXPECT_FALSE(seenFrom(
             plate({kOrigin.x() + x, kOrigin.y(), 0}, {0.1 * (1 + x / 5), 0.1, 0.01}),
             image))
             << x;
     // A post on it is.
-    EXPECT_TRUE(isSeenThrough(plate({kOrigin.x() + 4, kOrigin.y(), 0.4}, {0.02, 0.02, 0.1}),
-                              image));
+    EXPECT_TRUE(
+        seenFrom(plate({kOrigin.x() + 4, kOrigin.y(), 0.4}, {0.02, 0.02, 0.1}), image));
+}
+
+TEST(SeenThrough, WhatStoodOnTheFloorAlthoughRaysBelowItEndBeforeIt) {
+    Mixture<3> floor;
+    for (double x = 0.3; x < 20; x += 0.02 * (1 + x))
+        for (double y = -3; y < 3; y += 0.03)
+            add(floor, {kOrigin.x() + x, kOrigin.y() + y, 0});
+    const RayImage image(floor, kOrigin);
+    const auto foot = [](double height_m, const Eigen::Vector3d& sigma) {
+        return plate({kOrigin.x() + 3, kOrigin.y(), height_m}, sigma);
+    };
+    EXPECT_TRUE(seenFrom(foot(0.12, {0.02, 0.06, 0.04}), image));
+    EXPECT_FALSE(seenFrom(foot(0.01, {0.02, 0.06, 0.04}), image));  // the floor itself
+    // The way through sheets is told in cells.
+    EXPECT_FALSE(seenFrom(foot(0.12, {0.005, 0.06, 0.04}), image));
+    // Of its rays some end in it.
+    Mixture<3> half = floor;
+    for (double y = -0.1; y < 0; y += 0.03)
+        for (double z = 0.05; z < 0.25; z += 0.02)
+            add(half, {kOrigin.x() + 3, kOrigin.y() + y, z});
+    EXPECT_FALSE(seenFrom(foot(0.12, {0.02, 0.06, 0.04}), RayImage(half, kOrigin)));
+}
+
+TEST(SeenThrough, NotWhatRaysOnlyPassBeside) {
+    // No ray goes through the core of a pole, and one beside it ends near.
+    Mixture<3> samples;
+    for (double a = -0.5; a <= 0.5; a += 0.02)
+        add(samples, kOrigin + 8 * Eigen::Vector3d(1, a + 0.01, 0));
+    add(samples, kOrigin + Eigen::Vector3d(2.98, 0.08, 0));
+    const RayImage image(samples, kOrigin);
+    EXPECT_FALSE(
+        seenFrom(plate(kOrigin + Eigen::Vector3d(3, 0, 0), {0.02, 0.02, 0.1}), image));
 }
 
 TEST(SeenThrough, NotWhatIsMostlyHidden) {
@@ -130,11 +166,11 @@ TEST(SeenThrough, NotWhatIsMostlyHidden) {
         for (double b = -1; b <= 1; b += 0.015)
             add(samples, kOrigin + (a < 0.05 ? 2.0 : 8.0) * Eigen::Vector3d(1, a, b));
     const RayImage image(samples, kOrigin);
-    EXPECT_FALSE(isSeenThrough(
-        plate(kOrigin + Eigen::Vector3d(4, 0.2, 0), {0.01, 0.5, 0.1}), image));
+    EXPECT_FALSE(
+        seenFrom(plate(kOrigin + Eigen::Vector3d(4, 0.2, 0), {0.01, 0.5, 0.1}), image));
     EXPECT_TRUE(
-        isSeenThrough(plate(kOrigin + Eigen::Vector3d(4, 2, 0), {0.01, 0.3, 0.1}), image));
-    EXPECT_FALSE(isSeenThrough(plate(kOrigin, {0.1, 0.1, 0.1}), image));
+        seenFrom(plate(kOrigin + Eigen::Vector3d(4, 2, 0), {0.01, 0.3, 0.1}), image));
+    EXPECT_FALSE(seenFrom(plate(kOrigin, {0.1, 0.1, 0.1}), image));
 }
 
 TEST(CoarseGrid, AgreesWithBruteForceThroughMovesAndRemovals) {

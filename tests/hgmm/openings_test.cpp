@@ -6,10 +6,10 @@
 #include <random>
 #include <vector>
 
-#include "fusion/ray_image.h"
 #include "hgmm/map.h"
 #include "occupancy/passed_surfaces.h"
 #include "planted_mixture.h"
+#include "scan/ray_image.h"
 
 namespace hgmm {
 namespace {

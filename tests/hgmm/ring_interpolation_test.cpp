@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 
 #include "planted_mixture.h"
@@ -13,12 +15,16 @@ using test::uniform;
 
 constexpr double kNoise_m = 0.005;
 
-void add(Mixture<3>& samples, double x, double y, double z) {
+Gaussian<3> sampleAt(double x, double y, double z) {
     Gaussian<3> s;
     s.support = 1;
     s.mean << x, y, z;
     s.covariance = kNoise_m * kNoise_m * Eigen::Matrix3d::Identity();
-    samples.pushBack(s);
+    return s;
+}
+
+void add(Mixture<3>& samples, double x, double y, double z) {
+    samples.pushBack(sampleAt(x, y, z));
 }
 
 /// How many samples of `after` have grown.
@@ -95,6 +101,30 @@ TEST(Gaps, ThePlaneOfTheRaysIsNoSurface) {
 }
 
 // The rings of a lidar on the ground under it meet far out, where rays are nearly level.
+/// Ends of a lidar's rays, 1 m above the floor: a table edge 3.4 m away lies on one ring;
+/// the rings above and below go to the floor or to a wall, 8 m away.
+TEST(Gaps, ATableTopIsNotJoinedWithTheFloorBehindIt) {
+    constexpr double kPi = 3.14159265358979;
+    Mixture<3> samples, edge;
+    for (int ring = -8; ring < 8; ++ring)
+        for (int i = -30; i <= 30; ++i) {
+            const double rise = std::tan((2 * ring + 1) * kPi / 180),
+                         azimuth = i * kPi / 360;
+            const bool meetsTable = ring == -3;
+            const double range = meetsTable ? 3.4
+                                 : rise < 0 ? std::min(8.0, -1 / rise)
+                                            : 8.0;
+            (meetsTable ? edge : samples)
+                .pushBack(sampleAt(range * std::cos(azimuth), range * std::sin(azimuth),
+                                   range * rise));
+        }
+    const std::size_t others = samples.size();
+    for (std::size_t i = 0; i < edge.size(); ++i) samples.pushBack(edge[i]);
+    interpolateRings(samples, {});
+    for (std::size_t i = others; i < samples.size(); ++i)
+        EXPECT_LT(std::sqrt(samples[i].covariance(2, 2)), 0.03) << i;
+}
+
 TEST(Gaps, GroundSeenAtASmallAngleIsASurface) {
     Mixture<3> samples;
     for (const double range : {29.0, 31.0, 33.0, 35.0})

@@ -3,35 +3,84 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "fusion/piece.h"
+
 namespace hgmm {
 
-bool isSeenThrough(const Gaussian<3>& component, const RayImage& image) {
-    const Eigen::Vector3d& origin = image.origin();
-    const Eigen::Vector3d ray = component.mean - origin;
-    const double range = ray.norm();
-    if (!(range > 0)) return false;
-    const Eigen::Vector3d u = ray / range;
-    const Eigen::Matrix3d covariance = component.covariance;
-    const double margin = 3 * std::sqrt(u.dot(covariance * u));
-    const auto passes = [&](const Eigen::Vector3d& point) {
-        const Eigen::Vector3d towards = point - origin;
-        return image.nearestRange(towards) > towards.norm() + margin;
+namespace {
+
+/// Rays end so many of a component's standard deviations behind it.
+constexpr double kBehindSigmas = 3.0;
+/// So many rays through the core of a component, of which this share ends behind it, say
+/// that it is gone.
+constexpr int kLeastRays = 3;
+constexpr double kPassingShare = 0.95;
+
+/// A component as a sensor sees it.
+struct View {
+    Eigen::Vector3d towards;  ///< from the sensor to its mean [m]
+    double range_m;           ///< length of that
+    Eigen::Matrix3d factor;   ///< L of the covariance L L^T
+    double sigma_m;           ///< along the ray to the mean
+};
+
+/// Whether the nearest rays about the mean and most of the sigma points all end behind.
+bool allAroundPass(const View& view, const RayImage& image) {
+    const double margin_m = kBehindSigmas * view.sigma_m;
+    const auto passes = [&](const Eigen::Vector3d& towards) {
+        return image.nearestRange(towards) > towards.norm() + margin_m;
     };
-    if (!passes(component.mean)) return false;
+    if (!passes(view.towards)) return false;
     // Points whose moments are the component's: mean +- sqrt(3) columns of the factor.
-    const Eigen::Matrix3d L = covariance.llt().matrixL();
     int passed = 0;
     for (int axis = 0; axis < 3; ++axis)
         for (const double side : {-1.7320508, 1.7320508})
-            passed += passes(component.mean + side * L.col(axis)) ? 1 : 0;
+            passed += passes(view.towards + side * view.factor.col(axis)) ? 1 : 0;
     return passed >= 4;
 }
 
+/// Whether rays through the core of the component, one standard deviation, end behind it,
+/// whatever the rays beside it meet: the floor before it, for instance.
+bool coreIsPassed(const View& view, const RayImage& image) {
+    const auto factor = view.factor.triangularView<Eigen::Lower>();
+    const Eigen::Vector3d mean = factor.solve(view.towards);
+    const double extent_m = view.factor.norm(),
+                 angle = std::min(std::atan(extent_m / view.range_m), 0.5),
+                 margin_m = kBehindSigmas * view.sigma_m + poseErrorAt(view.range_m);
+    int rays = 0, passing = 0;
+    image.visitAround(view.towards / view.range_m, angle,
+                      view.range_m - extent_m - margin_m, [&](const RayImage::Ray& ray) {
+                          const Eigen::Vector3d along = factor.solve(ray.direction);
+                          const double foot_m = mean.dot(along) / along.squaredNorm();
+                          if (!((mean - foot_m * along).squaredNorm() <= 1.0)) return;
+                          if (ray.length_m < foot_m - margin_m) return;  // hidden
+                          ++rays;
+                          passing += ray.length_m > foot_m + margin_m ? 1 : 0;
+                      });
+    return passing >= kLeastRays && passing >= kPassingShare * rays;
+}
+
+}  // namespace
+
+bool isSeenThrough(const Gaussian<3>& component, const RayImage& image,
+                   const Eigen::Vector3d& normalOfRays) {
+    View view;
+    view.towards = component.mean - image.origin();
+    view.range_m = view.towards.norm();
+    if (!(view.range_m > 0)) return false;
+    const Eigen::Matrix3d covariance = component.covariance;
+    view.factor = covariance.llt().matrixL();
+    view.sigma_m = std::sqrt(view.towards.dot(covariance * view.towards)) / view.range_m;
+    if (allAroundPass(view, image)) return true;
+    return coreIsPassed(view, image) && !isSheet(pieceOf(component, normalOfRays));
+}
+
 std::vector<std::uint32_t> seenThrough(const Mixture<3>& surfaces, const RayImage& image,
+                                       const Eigen::Vector3d& normalOfRays,
                                        const std::vector<std::uint32_t>& near) {
     std::vector<std::uint32_t> found;
     for (const std::uint32_t i : near)
-        if (isSeenThrough(surfaces[i], image)) found.push_back(i);
+        if (isSeenThrough(surfaces[i], image, normalOfRays)) found.push_back(i);
     return found;
 }
 

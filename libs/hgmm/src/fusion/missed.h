@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "fusion/oversized.h"
-#include "fusion/ray_image.h"
 #include "hgmm/mixture.h"
 #include "index/component_index.h"
+#include "scan/ray_image.h"
 
 namespace hgmm {
 

@@ -1,10 +1,11 @@
 #include "occupancy/passed_surfaces.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "fusion/piece.h"
 #include "occupancy/openings.h"
 
 namespace hgmm {
@@ -13,38 +14,13 @@ namespace {
 
 /// A tile, evenly filled, ends at sqrt(3) standard deviations.
 constexpr double kTileReach2 = 3.0;
-/// Pieces of surfaces are at least so many times wider than thick; others, as bushes and
-/// corners, let rays pass and are still there.
-constexpr double kWidthPerThickness = 7.0;
-/// Range noise and shallow steps, as of a door in its frame, make narrow pieces thick: less
-/// thick ones need be four times wider only [m].
-constexpr double kNoise_m = 0.04, kWidthPerNoise = 4.0;
 /// Rays farther apart do not tell: too few end beside an edge [m].
 constexpr double kSparsest_m = 0.125;
 /// Rays end so many standard deviations behind what they go through, and by what poses may
-/// be off besides: at 1 m, growing with the root of the range [m], and of the range [1].
-constexpr double kBehindSigmas = 3.0, kErrorAtOneMetre_m = 0.02, kErrorPerMetre = 0.015;
+/// be off besides.
+constexpr double kBehindSigmas = 3.0;
 /// A surface is felt so far from its plane [standard deviations].
 constexpr double kFeltSigmas = 4.0;
-
-/// A component as a piece of a surface.
-struct Piece {
-    Eigen::Vector3d normal;  ///< unit vector
-    double thickness_m;      ///< standard deviation along it
-    double width_m;          ///< the smaller one across it, or that in the plane of rays
-};
-
-/// @param normalOfRays of a planar laser; else zero
-Piece pieceOf(const Gaussian<3>& component, const Eigen::Vector3d& normalOfRays) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(
-        Eigen::Matrix3d(component.covariance));
-    const Eigen::Vector3d sigma = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-    if (normalOfRays.isZero()) return {eigen.eigenvectors().col(0), sigma[0], sigma[1]};
-    const Eigen::Vector3d across =
-        normalOfRays.cross(eigen.eigenvectors().col(2)).normalized();
-    const Eigen::Matrix3d covariance = component.covariance;
-    return {across, std::sqrt(across.dot(covariance * across)), sigma[2]};
-}
 
 /// The way of rays through one component.
 class Passage {
@@ -55,7 +31,7 @@ class Passage {
 
     void mark(const RayImage::Ray& ray, Coverage& passed) {
         if (!hasPiece_) setPiece();
-        if (!isWide_) return;
+        if (!isSheet_) return;
         const std::optional<double> range_m = goesThrough(ray);
         if (!range_m) return;
         const double spacing_m = rays_.spacing_rad() * *range_m;
@@ -69,9 +45,7 @@ class Passage {
     void setPiece() {
         piece_ = pieceOf(component_, rays_.normal());
         height_m_ = piece_.normal.dot(Eigen::Vector3d(component_.mean) - origin_);
-        const double most =
-            piece_.thickness_m < kNoise_m ? kWidthPerNoise : kWidthPerThickness;
-        isWide_ = piece_.thickness_m * most <= piece_.width_m;
+        isSheet_ = isSheet(piece_);
         hasPiece_ = true;
     }
 
@@ -102,9 +76,7 @@ class Passage {
         const double approach = piece_.normal.dot(ray.direction);
         const double range_m = height_m_ / approach;
         if (!(range_m > 0 && range_m < ray.length_m)) return std::nullopt;
-        const double clear_m = kBehindSigmas * piece_.thickness_m +
-                               kErrorAtOneMetre_m * std::sqrt(range_m) +
-                               kErrorPerMetre * range_m;
+        const double clear_m = kBehindSigmas * piece_.thickness_m + poseErrorAt(range_m);
         if (std::abs(height_m_) < clear_m ||
             (ray.length_m - range_m) * std::abs(approach) < clear_m)
             return std::nullopt;
@@ -119,8 +91,8 @@ class Passage {
     const Eigen::Vector3d& origin_;
     const Coverage::Rays& rays_;
     bool hasPiece_ = false;  ///< the first ray makes it
-    bool isWide_ = false;
-    Piece piece_{Eigen::Vector3d::Zero(), 0.0, 0.0};
+    bool isSheet_ = false;
+    Piece piece_;
     double height_m_ = 0.0;  ///< of its mean over the sensor, along its normal
 };
 

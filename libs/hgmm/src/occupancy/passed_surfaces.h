@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "fusion/ray_image.h"
 #include "hgmm/mixture.h"
 #include "index/component_index.h"
 #include "occupancy/coverage.h"
+#include "scan/ray_image.h"
 
 namespace hgmm {
 

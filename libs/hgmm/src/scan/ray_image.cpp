@@ -1,4 +1,4 @@
-#include "fusion/ray_image.h"
+#include "scan/ray_image.h"
 
 namespace hgmm {
 

@@ -1,11 +1,14 @@
 #include "scan/ring_interpolation.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <unordered_map>
+#include <optional>
+#include <vector>
 
-#include "base/lattice.h"
+#include "base/lattice_table.h"
+#include "scan/ray_image.h"
 
 namespace hgmm {
 
@@ -23,6 +26,21 @@ constexpr double kFlatness = 0.1;
 /// Two lines of samples at a distance g spread by g / 2, three by 0.8 g; Gaussians that
 /// meet spread by 0.29 g each.
 constexpr double kBridge = 0.5;
+
+/// Rays between a line and the next are within so many standard deviations of a bridge: the
+/// next of three lines lies 2.5 from the one in the middle. Rays of the line itself are
+/// within the last [sigma].
+constexpr double kBetweenLines = 2.4, kOwnLine = 0.3;
+
+/// The next of two lines is within so many of its own [sigma].
+constexpr double kNextLines = 4.5;
+
+/// A bridge leads nowhere if so many times more rays cross it than end on its plane.
+constexpr int kCrossings = 4;
+
+/// A ray ends behind a plane if it does so by this share of the cell's edge: far more than
+/// a plane may be thick.
+constexpr double kBehind = 0.25;
 
 /// A plane is seen at no less than this angle [rad]: the points of one that holds the
 /// sensor lie in it because the rays do, as all those of a planar laser, not because they
@@ -62,75 +80,130 @@ struct Content {
     }
 };
 
-using Contents = std::unordered_map<LatticeCell, Content, LatticeCellHash>;
+using Contents = LatticeTable<Content>;
 using Solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
 
-/// Covariance that bridges the gaps around the samples of `own`, given the plane in
-/// `around`; zero if that is no plane.
-Eigen::Matrix3d bridge(const Content& own, const Content& around) {
+/// What the samples of a cell say of the surface between its line and the next.
+struct Bridge {
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of the plane, unit
+    Eigen::Matrix3d wider = Eigen::Matrix3d::Zero();   ///< added to covariances [m^2]
+    Eigen::Vector3d line = Eigen::Vector3d::Zero();    ///< of the own samples; zero: none
+    double halfLength_m = 0.0;                         ///< of the line [m]
+};
+
+/// The bridge over the gaps around the samples of `own`, given the plane in `around`;
+/// nothing wider if that is no plane.
+Bridge bridge(const Content& own, const Content& around) {
     Solver plane;
     plane.computeDirect(around.scatter());
     const Eigen::Vector3d spread = plane.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-    if (spread[0] > kFlatness * spread[1]) return Eigen::Matrix3d::Zero();
-    const Eigen::Vector3d normal = plane.eigenvectors().col(0);
+    if (spread[0] > kFlatness * spread[1]) return {};
+    Bridge result;
+    result.normal = plane.eigenvectors().col(0);
     const Eigen::Vector3d ray = around.mean();
-    if (std::abs(normal.dot(ray)) < kLeastIncidence * ray.norm())
-        return Eigen::Matrix3d::Zero();
-    Eigen::Matrix3d wider = Eigen::Matrix3d::Zero();
+    if (std::abs(result.normal.dot(ray)) < kLeastIncidence * ray.norm()) return {};
     const auto widen = [&](const Eigen::Vector3d& direction) {
-        wider += kBridge * kBridge * direction.dot(around.scatter() * direction) *
-                 direction * direction.transpose();
+        result.wider += kBridge * kBridge * direction.dot(around.scatter() * direction) *
+                        direction * direction.transpose();
     };
-    Eigen::Vector3d line = Eigen::Vector3d::Zero();
     if (own.count >= 3) {
         Solver lines;
         lines.computeDirect(own.scatter());
-        line = lines.eigenvectors().col(2);
+        result.line = lines.eigenvectors().col(2);
+        result.halfLength_m = std::sqrt(3 * std::max(lines.eigenvalues()[2], 0.0));
     }
-    const Eigen::Vector3d across = normal.cross(line);
+    const Eigen::Vector3d across = result.normal.cross(result.line);
     if (across.squaredNorm() > 0.25) {
         widen(across.normalized());
     } else {
+        result.line.setZero();
         widen(plane.eigenvectors().col(1));
         widen(plane.eigenvectors().col(2));
     }
-    return wider;
+    return result;
+}
+
+/// Whether rays between the line of a bridge and the next end behind its plane, and few on
+/// it: what lies beyond the gap is another surface. The edge of a table top and the floor
+/// behind it are no plane.
+bool isCrossed(const Bridge& bridge, const Content& own, double edge_m,
+               const RayImage& rays) {
+    const Eigen::Vector3d mean = own.mean();
+    const double range = mean.norm(), variance = bridge.wider.trace(),
+                 reach = kNextLines * std::sqrt(variance);
+    if (!(variance > 0 && range > 0)) return false;
+    const double angle = std::min(std::atan(reach / range), 0.5),
+                 offset = bridge.normal.dot(mean);
+    int crossing = 0, ending = 0;
+    rays.visitAround(mean / range, angle, 0.0, [&](const RayImage::Ray& ray) {
+        const double towards = bridge.normal.dot(ray.direction), t = offset / towards;
+        if (!(t > 0)) return;
+        const Eigen::Vector3d beside = t * ray.direction - mean;
+        if (std::abs(bridge.line.dot(beside)) > bridge.halfLength_m) return;
+        // In standard deviations of the bridge: its covariance is degenerate.
+        const double d2 = beside.dot(bridge.wider * beside) / (variance * variance);
+        if (d2 > kNextLines * kNextLines || d2 < kOwnLine * kOwnLine) return;
+        const double behind = (ray.length_m - t) * std::abs(towards);
+        if (std::abs(behind) < kBehind * edge_m)
+            ++ending;
+        else if (behind > 0 && d2 < kBetweenLines * kBetweenLines)
+            ++crossing;
+    });
+    return crossing > kCrossings * ending;
+}
+
+/// Sums of all cells of up to kGapDoublings doublings.
+std::array<Contents, kGapDoublings + 1> contentsOf(const Mixture<3>& samples,
+                                                   const std::vector<LatticeCell>& cells) {
+    std::array<Contents, kGapDoublings + 1> contents;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        contents[0]
+            .tryEmplace(cells[i], {})
+            .first->add({samples.mean[0][i], samples.mean[1][i], samples.mean[2][i]});
+    for (int d = 1; d <= kGapDoublings; ++d)
+        contents[d - 1].forEach([&](const LatticeCell& cell, const Content& content) {
+            contents[d].tryEmplace(cell.parent(), {}).first->add(content);
+        });
+    return contents;
+}
+
+/// The bridge of a cell by the smallest cell around it that spreads twice.
+Bridge bridgeOf(const LatticeCell& cell,
+                const std::array<Contents, kGapDoublings + 1>& contents) {
+    LatticeCell around = cell;
+    for (int d = 1; d <= kGapDoublings; ++d) {
+        around = around.parent();
+        const Content& content = *contents[d].find(around);
+        if (content.spreadsTwice(kLeastSpread * powerOfTwo(around.octave)))
+            return bridge(*contents[0].find(cell), content);
+    }
+    return {};
 }
 
 }  // namespace
 
 void interpolateRings(Mixture<3>& samples, const CellParams& params) {
-    std::array<Contents, kGapDoublings + 1> contents;
     std::vector<LatticeCell> cells(samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const Eigen::Vector3d p(samples.mean[0][i], samples.mean[1][i], samples.mean[2][i]);
         cells[i] = LatticeCell::at(p, octaveOf(params.edgeAt(p.norm())));
-        contents[0][cells[i]].add(p);
     }
-    std::unordered_map<LatticeCell, Eigen::Matrix3d, LatticeCellHash> bridges;
-    for (const auto& [cell, own] : contents[0])
-        if (!own.spreadsTwice(kLeastSpread * powerOfTwo(cell.octave)))
-            bridges.emplace(cell, Eigen::Matrix3d::Zero());
-    if (bridges.empty()) return;
-
-    for (int d = 1; d <= kGapDoublings; ++d)
-        for (const auto& [cell, content] : contents[d - 1])
-            contents[d][cell.parent()].add(content);
-    for (auto& [cell, wider] : bridges) {
-        LatticeCell around = cell;
-        for (int d = 1; d <= kGapDoublings; ++d) {
-            around = around.parent();
-            const Content& content = contents[d].at(around);
-            if (!content.spreadsTwice(kLeastSpread * powerOfTwo(around.octave))) continue;
-            wider = bridge(contents[0].at(cell), content);
-            break;
-        }
-    }
+    const auto contents = contentsOf(samples, cells);
+    std::optional<RayImage> rays;  // made when first asked, for dense scans have no gaps
+    LatticeTable<Eigen::Matrix3d> wider;
+    contents[0].forEach([&](const LatticeCell& cell, const Content& own) {
+        const double edge_m = powerOfTwo(cell.octave);
+        if (own.spreadsTwice(kLeastSpread * edge_m)) return;
+        const Bridge found = bridgeOf(cell, contents);
+        if (found.wider.isZero()) return;
+        if (!rays) rays.emplace(samples, Eigen::Vector3d::Zero());
+        if (!isCrossed(found, own, edge_m, *rays)) wider.tryEmplace(cell, found.wider);
+    });
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        const auto found = bridges.find(cells[i]);
-        if (found == bridges.end()) continue;
+        const Eigen::Matrix3d* found = wider.find(cells[i]);
+        if (found == nullptr) continue;
         Gaussian<3> g = samples[i];
-        g.covariance += found->second;
+        g.covariance += *found;
         samples.set(i, g);
     }
 }

@@ -13,7 +13,8 @@ namespace hgmm {
 /// plane tells the direction of the gap, in the plane and across the line, and its width;
 /// the covariance of the samples grows along it so that their Gaussians meet. Samples on
 /// rough ground, vegetation, or with nothing around them stay as they are, and so do those
-/// of a plane that holds the sensor: that of the rays of a planar laser.
+/// before a gap in which rays go far beyond the plane, and those of a plane that holds the
+/// sensor: that of the rays of a planar laser.
 ///
 /// @param samples in the sensor frame; only covariances change
 void interpolateRings(Mixture<3>& samples, const CellParams& params);
