@@ -148,6 +148,18 @@ TEST(SeenThrough, WhatStoodOnTheFloorAlthoughRaysBelowItEndBeforeIt) {
     EXPECT_FALSE(seenFrom(foot(0.12, {0.02, 0.06, 0.04}), RayImage(half, kOrigin)));
 }
 
+TEST(SeenThrough, NotASheetThatOtherRaysHit) {
+    const RayImage image = wallAt(8);
+    Mixture<3> surfaces;
+    surfaces.pushBack(plate(kOrigin + Eigen::Vector3d(4, 0, 0), {0.01, 0.15, 0.15}));
+    surfaces.pushBack(plate(kOrigin + Eigen::Vector3d(4, 0, 0.5), {0.1, 0.15, 0.15}));
+    const auto seen = [&](const std::vector<std::uint32_t>& hit) {
+        return seenThrough(surfaces, hit, image, Eigen::Vector3d::Zero(), {0, 1});
+    };
+    EXPECT_EQ(seen({}), (std::vector<std::uint32_t>{0, 1}));
+    EXPECT_EQ(seen({0, 1}), (std::vector<std::uint32_t>{1}));
+}
+
 TEST(SeenThrough, NotWhatRaysOnlyPassBeside) {
     // No ray goes through the core of a pole, and one beside it ends near.
     Mixture<3> samples;

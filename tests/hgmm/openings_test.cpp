@@ -106,6 +106,12 @@ TEST(PassedSurfaces, AreWidePiecesOfManyHits) {
     EXPECT_TRUE(passedBy(pieceAt({4, 0, 0}, {0.002, 0.01, 0.3}), fanOfEnds(20, 6)).empty());
 }
 
+TEST(PassedSurfaces, AreWallsNearTheSensorThatReachFar) {
+    const Coverage all = passedBy(pieceAt({4, 0, 0}, {0.02, 3, 1}), fanOfEnds(20, 6));
+    const double aside[3] = {4, 0.8, 0.05};
+    EXPECT_GT(all.shareAt(aside), 0.5);
+}
+
 TEST(PassedSurfaces, AreCellsAboutThePlaceOnly) {
     const Coverage passed =
         passedBy(pieceAt({4, 0, 0}, {0.02, 0.3, 0.3}), fanOfEnds(20, 6));

@@ -78,26 +78,53 @@ void changeAsInFiles(CHGMMOccupancyMap& map) {
     changeAsInFiles(map.renderOptions);
 }
 
-void writeGolden() {
+void writeGolden(const CHGMMOccupancyMap& map, const std::string& name) {
+    map.saveToFile(kData + name + ".hgmm");
+    const CHGMMOccupancyMap saved = load(name + ".hgmm");
+    const hgmm::Map& model = saved.model();
+    std::ofstream answers(kData + name + ".txt");
+    answers << model.mixture().size() << "\n" << std::setprecision(17);
+    for (const Eigen::Vector3d& p : pointsOf(model)) {
+        const hgmm::Occupancy occupancy = model.occupancy(p);
+        answers << p.x() << " " << p.y() << " " << p.z() << " " << model.logDensity(p)
+                << " " << occupancy.occupied << " " << occupancy.free;
+        if (!model.params().modalities.empty())
+            for (const char* colour : kColours)
+                answers << " " << model.modality(colour, p).mean;
+        answers << "\n";
+    }
+}
+
+void writeGoldenWithColours() {
     CHGMMOccupancyMap map;
     map.insertionOptions.params.modalities = {"r", "g", "b"};
     map.insertObservation(*observations::laser(), CPose3D(10, -5, 0.3, 0.2, 0, 0));
     map.insertObservation(*observations::rotating(16, 91), CPose3D(10, -5, 0.3, 0.2, 0, 0));
     map.insertObservation(*coloured_wall::colours(), CPose3D(12, -5, 0.3, 1.2, 0, 0));
     changeAsInFiles(map);
-    map.saveToFile(kData + "map_model_v4.hgmm");
+    writeGolden(map, "map_model_v4");
+}
 
-    const CHGMMOccupancyMap saved = load("map_model_v4.hgmm");
-    const hgmm::Map& model = saved.model();
-    std::ofstream answers(kData + "map_model_v4.txt");
-    answers << model.mixture().size() << "\n" << std::setprecision(17);
-    for (const Eigen::Vector3d& p : pointsOf(model)) {
-        const hgmm::Occupancy occupancy = model.occupancy(p);
-        answers << p.x() << " " << p.y() << " " << p.z() << " " << model.logDensity(p)
-                << " " << occupancy.occupied << " " << occupancy.free;
-        for (const char* name : kColours) answers << " " << model.modality(name, p).mean;
-        answers << "\n";
-    }
+/// A doorway |y| < .5 m, |z| < 1 m in a wall x = 4 m, shut or open, and a wall x = 7 m
+/// behind it; with what passes for noise.
+hgmm::Scan scanOfDoorway(bool isOpen, int index) {
+    hgmm::Scan scan;
+    for (int row = -15; row <= 15; ++row)
+        for (int column = -45; column <= 45; ++column) {
+            const float y = 0.02F * float(column), z = 0.02F * float(row);
+            const bool passes = isOpen && std::abs(4 * y) < 0.5F && std::abs(4 * z) < 1;
+            const float depth =
+                (passes ? 7.0F : 4.0F) +
+                0.02F * std::sin(float(97 * row + 31 * column + 13 * index));
+            scan.pushBack(depth, depth * y, depth * z);
+        }
+    return scan;
+}
+
+void writeGoldenWithOpenings() {
+    CHGMMOccupancyMap map;
+    for (int i = 0; i < 40; ++i) map.model().insert(scanOfDoorway(i >= 37, i));
+    writeGolden(map, "map_model_v5");
 }
 
 /// Lines of numbers behind the number of components, which is checked.
@@ -248,7 +275,7 @@ TEST(GoldenFile, MapOfVersion2LoadsAndAnswersAsEver) {
 
 // The model has its own version, 4 with coverage, in an object of version 2.
 TEST(GoldenFile, MapOfModelVersion4LoadsAndAnswersAsEver) {
-    if (std::getenv("HGMM_WRITE_GOLDEN")) writeGolden();
+    if (std::getenv("HGMM_WRITE_GOLDEN")) writeGoldenWithColours();
     const CHGMMOccupancyMap map = load("map_model_v4.hgmm");
     expectColouredMap(map, "map_model_v4.txt", kExact);
     EXPECT_GT(map.model().coverageBytes(), 100U);
@@ -257,6 +284,19 @@ TEST(GoldenFile, MapOfModelVersion4LoadsAndAnswersAsEver) {
     changeAsInFiles(wanted);
     wanted.insertionOptions.reading = map.insertionOptions.reading;
     EXPECT_EQ(edited::all(map), edited::all(wanted));
+}
+
+// Version 5 has openings.
+TEST(GoldenFile, MapOfModelVersion5LoadsAndItsDoorIsOpen) {
+    if (std::getenv("HGMM_WRITE_GOLDEN")) writeGoldenWithOpenings();
+    CHGMMOccupancyMap map = load("map_model_v5.hgmm");
+    expectOccupancies(map.model(), readAnswers("map_model_v5.txt", map.model()), kExact);
+    EXPECT_EQ(map.model().save(hgmm::Encoding::compact)[4], 5);
+    EXPECT_GT(map.model().occupancy({4.0, 0.0, 0.0}).free, 0.9F);
+    EXPECT_GT(map.model().occupancy({4.0, 0.7, 0.0}).occupied, 0.9F);
+
+    for (int i = 0; i < 2; ++i) map.model().insert(scanOfDoorway(false, i));
+    EXPECT_GT(map.model().occupancy({4.0, 0.0, 0.0}).occupied, 0.5F);
 }
 
 }  // namespace

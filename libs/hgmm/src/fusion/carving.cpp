@@ -1,6 +1,7 @@
 #include "fusion/carving.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 #include "fusion/piece.h"
@@ -75,12 +76,20 @@ bool isSeenThrough(const Gaussian<3>& component, const RayImage& image,
     return coreIsPassed(view, image) && !isSheet(pieceOf(component, normalOfRays));
 }
 
-std::vector<std::uint32_t> seenThrough(const Mixture<3>& surfaces, const RayImage& image,
+std::vector<std::uint32_t> seenThrough(const Mixture<3>& surfaces,
+                                       const std::vector<std::uint32_t>& hit,
+                                       const RayImage& image,
                                        const Eigen::Vector3d& normalOfRays,
                                        const std::vector<std::uint32_t>& near) {
     std::vector<std::uint32_t> found;
-    for (const std::uint32_t i : near)
-        if (isSeenThrough(surfaces[i], image, normalOfRays)) found.push_back(i);
+    for (const std::uint32_t i : near) {
+        const Gaussian<3> component = surfaces[i];
+        if (!isSeenThrough(component, image, normalOfRays)) continue;
+        if (std::binary_search(hit.begin(), hit.end(), i) &&
+            isSheet(pieceOf(component, normalOfRays)))
+            continue;
+        found.push_back(i);
+    }
     return found;
 }
 

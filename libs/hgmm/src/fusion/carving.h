@@ -17,9 +17,13 @@ namespace hgmm {
 bool isSeenThrough(const Gaussian<3>& component, const RayImage& image,
                    const Eigen::Vector3d& normalOfRays);
 
-/// Components that a scan saw through, rising.
+/// Components that a scan saw through, rising. A sheet that other rays of the scan hit
+/// stays: openings tell where the rays went through.
+/// @param hit rows that the scan gave support to, rising
 /// @param near rows of components that may be in view, rising
-std::vector<std::uint32_t> seenThrough(const Mixture<3>& surfaces, const RayImage& image,
+std::vector<std::uint32_t> seenThrough(const Mixture<3>& surfaces,
+                                       const std::vector<std::uint32_t>& hit,
+                                       const RayImage& image,
                                        const Eigen::Vector3d& normalOfRays,
                                        const std::vector<std::uint32_t>& near);
 

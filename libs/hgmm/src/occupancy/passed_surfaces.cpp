@@ -19,6 +19,9 @@ constexpr double kSparsest_m = 0.125;
 /// Rays end so many standard deviations behind what they go through, and by what poses may
 /// be off besides.
 constexpr double kBehindSigmas = 3.0;
+/// All rays are asked for a tile that reaches farther from its mean, as a share of its
+/// range: sine of 0.6 rad.
+constexpr double kWidest = 0.56;
 /// A surface is felt so far from its plane [standard deviations].
 constexpr double kFeltSigmas = 4.0;
 
@@ -108,11 +111,14 @@ Coverage passedSurfaces(const Mixture<3>& surfaces, const ComponentIndex& index,
         const Eigen::Vector3d towards = component.mean - image.origin();
         const double range_m = towards.norm(),
                      extent_m = std::sqrt(kTileReach2 * component.covariance.trace());
-        if (!(range_m > extent_m)) continue;
+        if (!(range_m > 0)) continue;
         Passage passage(component, index.factor(i), image.origin(), rays);
-        image.visitAround(towards / range_m, std::min(0.6, extent_m / range_m),
-                          range_m - extent_m,
-                          [&](const RayImage::Ray& ray) { passage.mark(ray, passed); });
+        const auto mark = [&](const RayImage::Ray& ray) { passage.mark(ray, passed); };
+        if (extent_m < kWidest * range_m)
+            image.visitAround(towards / range_m, std::asin(extent_m / range_m),
+                              range_m - extent_m, mark);
+        else
+            image.visitAll(mark);
     }
     return passed;
 }

@@ -44,6 +44,12 @@ class RayImage {
         });
     }
 
+    /// Calls visit(ray) for all rays.
+    template <typename Visitor>
+    void visitAll(Visitor&& visit) const {
+        for (const Ray& ray : rays_) visit(ray);
+    }
+
  private:
     static constexpr int kBins = 45;  // an axis of a face: 2 degrees
     static constexpr std::size_t kAllBins = std::size_t{6} * kBins * kBins;
