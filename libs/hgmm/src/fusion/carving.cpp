@@ -48,17 +48,25 @@ bool coreIsPassed(const View& view, const RayImage& image) {
     const double extent_m = view.factor.norm(),
                  angle = std::min(std::atan(extent_m / view.range_m), 0.5),
                  margin_m = kBehindSigmas * view.sigma_m + poseErrorAt(view.range_m);
-    int rays = 0, passing = 0;
-    image.visitAround(view.towards / view.range_m, angle,
-                      view.range_m - extent_m - margin_m, [&](const RayImage::Ray& ray) {
-                          const Eigen::Vector3d along = factor.solve(ray.direction);
-                          const double foot_m = mean.dot(along) / along.squaredNorm();
-                          if (!((mean - foot_m * along).squaredNorm() <= 1.0)) return;
-                          if (ray.length_m < foot_m - margin_m) return;  // hidden
-                          ++rays;
-                          passing += ray.length_m > foot_m + margin_m ? 1 : 0;
-                      });
-    return passing >= kLeastRays && passing >= kPassingShare * rays;
+    // How many rays of at least a length end so far behind, or before, their nearest point
+    // to the mean.
+    const auto count = [&](double least_m, double behind_m) {
+        int rays = 0;
+        image.visitAround(view.towards / view.range_m, angle, least_m,
+                          [&](const RayImage::Ray& ray) {
+                              const Eigen::Vector3d along = factor.solve(ray.direction);
+                              const double foot_m = mean.dot(along) / along.squaredNorm();
+                              if ((mean - foot_m * along).squaredNorm() <= 1.0 &&
+                                  ray.length_m > foot_m + behind_m)
+                                  ++rays;
+                          });
+        return rays;
+    };
+    // Few rays are long enough to pass what is there.
+    const int passing = count(view.range_m - view.sigma_m + margin_m, margin_m);
+    if (passing < kLeastRays) return false;
+    return passing >=
+           kPassingShare * count(view.range_m - view.sigma_m - margin_m, -margin_m);
 }
 
 }  // namespace

@@ -32,9 +32,13 @@ class Passage {
             const Eigen::Vector3d& sensorOrigin, const Coverage::Rays& rays)
         : component_(component), factor_(factor), origin_(sensorOrigin), rays_(rays) {}
 
-    void mark(const RayImage::Ray& ray, Coverage& passed) {
+    bool isOfSheet() {
         if (!hasPiece_) setPiece();
-        if (!isSheet_) return;
+        return isSheet_;
+    }
+
+    void mark(const RayImage::Ray& ray, Coverage& passed) {
+        if (!isOfSheet()) return;
         const std::optional<double> range_m = goesThrough(ray);
         if (!range_m) return;
         const double spacing_m = rays_.spacing_rad() * *range_m;
@@ -117,7 +121,7 @@ Coverage passedSurfaces(const Mixture<3>& surfaces, const ComponentIndex& index,
         if (extent_m < kWidest * range_m)
             image.visitAround(towards / range_m, std::asin(extent_m / range_m),
                               range_m - extent_m, mark);
-        else
+        else if (passage.isOfSheet())
             image.visitAll(mark);
     }
     return passed;

@@ -123,31 +123,74 @@ Bridge bridge(const Content& own, const Content& around) {
     return result;
 }
 
+/// Where a ray meets the plane of a bridge.
+struct Crossing {
+    bool isBeside = false;  ///< beside the line, rather than its ends
+    double sigmas2 = 0.0;   ///< squared distance from the line [sigma of the bridge]
+    double behind_m = 0.0;  ///< how far behind the plane the ray ends; before it: negative
+};
+
+class BridgedPlane {
+ public:
+    BridgedPlane(const Bridge& bridge, const Eigen::Vector3d& mean)
+        : bridge_(bridge),
+          mean_(mean),
+          variance_(bridge.wider.trace()),
+          offset_(bridge.normal.dot(mean)) {}
+
+    double sigma_m() const { return std::sqrt(variance_); }
+
+    Crossing at(const RayImage::Ray& ray) const {
+        const double towards = bridge_.normal.dot(ray.direction), t = offset_ / towards;
+        if (!(t > 0)) return {};
+        const Eigen::Vector3d beside = t * ray.direction - mean_;
+        if (std::abs(bridge_.line.dot(beside)) > bridge_.halfLength_m) return {};
+        // The covariance of a bridge is degenerate.
+        return {true, beside.dot(bridge_.wider * beside) / (variance_ * variance_),
+                (ray.length_m - t) * std::abs(towards)};
+    }
+
+ private:
+    const Bridge& bridge_;
+    const Eigen::Vector3d& mean_;
+    double variance_, offset_;
+};
+
 /// Whether rays between the line of a bridge and the next end behind its plane, and few on
 /// it: what lies beyond the gap is another surface. The edge of a table top and the floor
 /// behind it are no plane.
 bool isCrossed(const Bridge& bridge, const Content& own, double edge_m,
                const RayImage& rays) {
     const Eigen::Vector3d mean = own.mean();
-    const double range = mean.norm(), variance = bridge.wider.trace(),
-                 reach = kNextLines * std::sqrt(variance);
-    if (!(variance > 0 && range > 0)) return false;
-    const double angle = std::min(std::atan(reach / range), 0.5),
-                 offset = bridge.normal.dot(mean);
+    const double range = mean.norm();
+    if (!(range > 0)) return false;
+    const Eigen::Vector3d u = mean / range;
+    const BridgedPlane plane(bridge, mean);
+    const auto crosses = [&](const Crossing& c) {
+        return c.isBeside && c.behind_m >= kBehind * edge_m &&
+               c.sigmas2 < kBetweenLines * kBetweenLines &&
+               c.sigmas2 >= kOwnLine * kOwnLine;
+    };
+    const auto angleTo = [&](double sigmas) {
+        return std::min(
+            std::atan(std::hypot(sigmas * plane.sigma_m(), bridge.halfLength_m) / range),
+            0.5);
+    };
+    // Most planes are surfaces. Few rays are long enough to cross them.
+    const double nearest = range - kBetweenLines * std::sqrt(u.dot(bridge.wider * u)) -
+                           std::abs(bridge.line.dot(u)) * bridge.halfLength_m;
+    if (!rays.anyAround(u, angleTo(kBetweenLines), nearest + kBehind * edge_m,
+                        [&](const RayImage::Ray& ray) { return crosses(plane.at(ray)); }))
+        return false;
     int crossing = 0, ending = 0;
-    rays.visitAround(mean / range, angle, 0.0, [&](const RayImage::Ray& ray) {
-        const double towards = bridge.normal.dot(ray.direction), t = offset / towards;
-        if (!(t > 0)) return;
-        const Eigen::Vector3d beside = t * ray.direction - mean;
-        if (std::abs(bridge.line.dot(beside)) > bridge.halfLength_m) return;
-        // In standard deviations of the bridge: its covariance is degenerate.
-        const double d2 = beside.dot(bridge.wider * beside) / (variance * variance);
-        if (d2 > kNextLines * kNextLines || d2 < kOwnLine * kOwnLine) return;
-        const double behind = (ray.length_m - t) * std::abs(towards);
-        if (std::abs(behind) < kBehind * edge_m)
-            ++ending;
-        else if (behind > 0 && d2 < kBetweenLines * kBetweenLines)
-            ++crossing;
+    rays.visitAround(u, angleTo(kNextLines), 0.0, [&](const RayImage::Ray& ray) {
+        const Crossing c = plane.at(ray);
+        crossing += crosses(c) ? 1 : 0;
+        ending += c.isBeside && std::abs(c.behind_m) < kBehind * edge_m &&
+                          c.sigmas2 <= kNextLines * kNextLines &&
+                          c.sigmas2 >= kOwnLine * kOwnLine
+                      ? 1
+                      : 0;
     });
     return crossing > kCrossings * ending;
 }
