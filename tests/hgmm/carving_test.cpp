@@ -149,15 +149,21 @@ TEST(SeenThrough, WhatStoodOnTheFloorAlthoughRaysBelowItEndBeforeIt) {
 }
 
 TEST(SeenThrough, NotASheetThatOtherRaysHit) {
-    const RayImage image = wallAt(8);
-    Mixture<3> surfaces;
-    surfaces.pushBack(plate(kOrigin + Eigen::Vector3d(4, 0, 0), {0.01, 0.15, 0.15}));
-    surfaces.pushBack(plate(kOrigin + Eigen::Vector3d(4, 0, 0.5), {0.1, 0.15, 0.15}));
-    const auto seen = [&](const std::vector<std::uint32_t>& hit) {
-        return seenThrough(surfaces, hit, image, Eigen::Vector3d::Zero(), {0, 1});
+    // A wall x = 4 with a doorway, |y| < hole, seen by all rays through its component.
+    const auto wallWith = [&](double hole) {
+        Mixture<3> samples;
+        for (double a = -0.6; a <= 0.6; a += 0.015)
+            for (double b = -0.2; b <= 0.2; b += 0.015)
+                add(samples, kOrigin + (std::abs(4 * a) < hole ? 8.0 : 4.0) *
+                                           Eigen::Vector3d(1, a, b));
+        return RayImage(samples, kOrigin);
     };
-    EXPECT_EQ(seen({}), (std::vector<std::uint32_t>{0, 1}));
-    EXPECT_EQ(seen({0, 1}), (std::vector<std::uint32_t>{1}));
+    const Eigen::Vector3d mean = kOrigin + Eigen::Vector3d(4, 0, 0);
+    const Gaussian<3> sheet = plate(mean, {0.01, 0.6, 0.2}),
+                      bush = plate(mean, {0.2, 0.6, 0.2});
+    EXPECT_FALSE(seenFrom(sheet, wallWith(0.7)));
+    EXPECT_TRUE(seenFrom(sheet, wallWith(1.3)));
+    EXPECT_TRUE(seenFrom(bush, wallWith(0.7)));
 }
 
 TEST(SeenThrough, NotWhatRaysOnlyPassBeside) {

@@ -16,6 +16,9 @@ constexpr double kBehindSigmas = 3.0;
 /// that it is gone.
 constexpr int kLeastRays = 3;
 constexpr double kPassingShare = 0.95;
+/// A sheet of whose rays this share end on it stays: openings tell where the others went
+/// through. A tile, evenly filled, ends at sqrt(3) standard deviations.
+constexpr double kHitShare = 0.2, kTileReach = 1.7320508;
 
 /// A component as a sensor sees it.
 struct View {
@@ -40,33 +43,42 @@ bool allAroundPass(const View& view, const RayImage& image) {
     return passed >= 4;
 }
 
+/// How many rays pass within some standard deviations of the mean and end so far behind
+/// their nearest point to it, or before: negative.
+int countRays(const View& view, const RayImage& image, double sigmas, double behind_m) {
+    const auto factor = view.factor.triangularView<Eigen::Lower>();
+    const Eigen::Vector3d mean = factor.solve(view.towards);
+    const double angle =
+        std::min(std::atan(sigmas * view.factor.norm() / view.range_m), 0.5);
+    int rays = 0;
+    image.visitAround(view.towards / view.range_m, angle,
+                      view.range_m - sigmas * view.sigma_m + behind_m,
+                      [&](const RayImage::Ray& ray) {
+                          const Eigen::Vector3d along = factor.solve(ray.direction);
+                          const double foot_m = mean.dot(along) / along.squaredNorm();
+                          if ((mean - foot_m * along).squaredNorm() <= sigmas * sigmas &&
+                              ray.length_m > foot_m + behind_m)
+                              ++rays;
+                      });
+    return rays;
+}
+
 /// Whether rays through the core of the component, one standard deviation, end behind it,
 /// whatever the rays beside it meet: the floor before it, for instance.
 bool coreIsPassed(const View& view, const RayImage& image) {
-    const auto factor = view.factor.triangularView<Eigen::Lower>();
-    const Eigen::Vector3d mean = factor.solve(view.towards);
-    const double extent_m = view.factor.norm(),
-                 angle = std::min(std::atan(extent_m / view.range_m), 0.5),
-                 margin_m = kBehindSigmas * view.sigma_m + poseErrorAt(view.range_m);
-    // How many rays of at least a length end so far behind, or before, their nearest point
-    // to the mean.
-    const auto count = [&](double least_m, double behind_m) {
-        int rays = 0;
-        image.visitAround(view.towards / view.range_m, angle, least_m,
-                          [&](const RayImage::Ray& ray) {
-                              const Eigen::Vector3d along = factor.solve(ray.direction);
-                              const double foot_m = mean.dot(along) / along.squaredNorm();
-                              if ((mean - foot_m * along).squaredNorm() <= 1.0 &&
-                                  ray.length_m > foot_m + behind_m)
-                                  ++rays;
-                          });
-        return rays;
-    };
-    // Few rays are long enough to pass what is there.
-    const int passing = count(view.range_m - view.sigma_m + margin_m, margin_m);
-    if (passing < kLeastRays) return false;
-    return passing >=
-           kPassingShare * count(view.range_m - view.sigma_m - margin_m, -margin_m);
+    const double margin_m = kBehindSigmas * view.sigma_m + poseErrorAt(view.range_m);
+    // Few rays are long enough to pass what is there, so these are asked first.
+    const int passing = countRays(view, image, 1.0, margin_m);
+    return passing >= kLeastRays &&
+           passing >= kPassingShare * countRays(view, image, 1.0, -margin_m);
+}
+
+/// Whether a good part of the rays through the tile of a component end on it.
+bool isHitBeside(const View& view, const RayImage& image) {
+    const double margin_m = kBehindSigmas * view.sigma_m + poseErrorAt(view.range_m);
+    const int passing = countRays(view, image, kTileReach, margin_m),
+              all = countRays(view, image, kTileReach, -margin_m);
+    return all - passing >= kHitShare * all;
 }
 
 }  // namespace
@@ -80,24 +92,18 @@ bool isSeenThrough(const Gaussian<3>& component, const RayImage& image,
     const Eigen::Matrix3d covariance = component.covariance;
     view.factor = covariance.llt().matrixL();
     view.sigma_m = std::sqrt(view.towards.dot(covariance * view.towards)) / view.range_m;
-    if (allAroundPass(view, image)) return true;
-    return coreIsPassed(view, image) && !isSheet(pieceOf(component, normalOfRays));
+    const bool allPass = allAroundPass(view, image);
+    if (!allPass && !coreIsPassed(view, image)) return false;
+    if (!isSheet(pieceOf(component, normalOfRays))) return true;
+    return allPass && !isHitBeside(view, image);
 }
 
-std::vector<std::uint32_t> seenThrough(const Mixture<3>& surfaces,
-                                       const std::vector<std::uint32_t>& hit,
-                                       const RayImage& image,
+std::vector<std::uint32_t> seenThrough(const Mixture<3>& surfaces, const RayImage& image,
                                        const Eigen::Vector3d& normalOfRays,
                                        const std::vector<std::uint32_t>& near) {
     std::vector<std::uint32_t> found;
-    for (const std::uint32_t i : near) {
-        const Gaussian<3> component = surfaces[i];
-        if (!isSeenThrough(component, image, normalOfRays)) continue;
-        if (std::binary_search(hit.begin(), hit.end(), i) &&
-            isSheet(pieceOf(component, normalOfRays)))
-            continue;
-        found.push_back(i);
-    }
+    for (const std::uint32_t i : near)
+        if (isSeenThrough(surfaces[i], image, normalOfRays)) found.push_back(i);
     return found;
 }
 

@@ -9,21 +9,18 @@
 namespace hgmm {
 
 /// Whether a scan saw through a component: rays at its mean and at most of its sigma points
-/// end more than three of its standard deviations behind it. Or, unless it is a sheet
-/// (piece.h), which openings answer for (occupancy/openings.h): three rays or more and all
-/// but a twentieth of those within a standard deviation of its mean end behind it, by what
-/// poses may be off besides.
+/// end more than three of its standard deviations behind it; but a sheet (piece.h) on which
+/// a fifth of its rays end stays, for openings tell where the others went through
+/// (occupancy/openings.h). Or, unless it is a sheet: three rays or more and all but a
+/// twentieth of those within a standard deviation of its mean end behind it, by what poses
+/// may be off besides.
 /// @param normalOfRays of a planar laser; else zero
 bool isSeenThrough(const Gaussian<3>& component, const RayImage& image,
                    const Eigen::Vector3d& normalOfRays);
 
-/// Components that a scan saw through, rising. A sheet that other rays of the scan hit
-/// stays: openings tell where the rays went through.
-/// @param hit rows that the scan gave support to, rising
+/// Components that a scan saw through, rising.
 /// @param near rows of components that may be in view, rising
-std::vector<std::uint32_t> seenThrough(const Mixture<3>& surfaces,
-                                       const std::vector<std::uint32_t>& hit,
-                                       const RayImage& image,
+std::vector<std::uint32_t> seenThrough(const Mixture<3>& surfaces, const RayImage& image,
                                        const Eigen::Vector3d& normalOfRays,
                                        const std::vector<std::uint32_t>& near);
 

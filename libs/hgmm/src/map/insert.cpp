@@ -161,7 +161,7 @@ void carve(const Mixture<3>& samples, const ScanSamples& scan, const Pose& T_loc
         passedSurfaces(store.surfaces(), cache.index(), near, kTrustedHits, image, cells),
         samples, T_local_sensor.t, cells);
     const std::vector<std::uint32_t> seen =
-        seenThrough(store.surfaces(), hit, image, limit.normalOfRays, near);
+        seenThrough(store.surfaces(), image, limit.normalOfRays, near);
     weaken(store, seen, carved, kTrustedHits, weakened);
     report.componentsMissed = missedRows.size();
     report.componentsCarved = seen.size();
