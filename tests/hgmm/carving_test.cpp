@@ -111,11 +111,17 @@ TEST(SeenThrough, NotThroughNoiseThatIsAsWideAsTheStep) {
     EXPECT_FALSE(seen(0.25));
 }
 
-TEST(SeenThrough, NotTheFloorAtGrazingAngles) {
+/// A dense scan of the floor, 1 m below the sensor.
+Mixture<3> floorEnds() {
     Mixture<3> floor;
     for (double x = 0.3; x < 20; x += 0.02 * (1 + x))
         for (double y = -3; y < 3; y += 0.03)
             add(floor, {kOrigin.x() + x, kOrigin.y() + y, 0});
+    return floor;
+}
+
+TEST(SeenThrough, NotTheFloorAtGrazingAngles) {
+    const Mixture<3> floor = floorEnds();
     const RayImage image(floor, kOrigin);
     for (double x = 0.5; x < 18; x += 0.25)
         EXPECT_FALSE(seenFrom(
@@ -128,10 +134,7 @@ TEST(SeenThrough, NotTheFloorAtGrazingAngles) {
 }
 
 TEST(SeenThrough, WhatStoodOnTheFloorAlthoughRaysBelowItEndBeforeIt) {
-    Mixture<3> floor;
-    for (double x = 0.3; x < 20; x += 0.02 * (1 + x))
-        for (double y = -3; y < 3; y += 0.03)
-            add(floor, {kOrigin.x() + x, kOrigin.y() + y, 0});
+    const Mixture<3> floor = floorEnds();
     const RayImage image(floor, kOrigin);
     const auto foot = [](double height_m, const Eigen::Vector3d& sigma) {
         return plate({kOrigin.x() + 3, kOrigin.y(), height_m}, sigma);
