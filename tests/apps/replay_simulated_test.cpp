@@ -29,12 +29,12 @@ TEST_F(ReplaySimulated, RemovedBoxIsFreedByVoxelsInTime) {
     const auto& removed = json["removed"];
     ASSERT_EQ(removed.size(), 2U);
     for (const char* map : {"hgmm", "octomap:0.1"}) {
-        const auto& row = rowOf(removed, map);
+        const auto row = rowOf(removed, map);
         EXPECT_EQ(row["sensor"], "16");
         EXPECT_EQ(row["after"], "2");
         EXPECT_GT(row["points"], 200) << "of 300 to 500 that hit a box of .6 m";
     }
-    const auto& voxels = rowOf(removed, "octomap:0.1");
+    const auto voxels = rowOf(removed, "octomap:0.1");
     // Two hits are log-odds of 2 x 0.85; a miss is -0.4: five misses, if one ray passes.
     EXPECT_GE(voxels["scans_to_half"], 4);
     EXPECT_LE(voxels["scans_to_half"], 6);
@@ -45,7 +45,7 @@ TEST_F(ReplaySimulated, RemovedBoxIsFreedByVoxelsInTime) {
 TEST_F(ReplaySimulated, AppearsAtOnceInVoxelsThatWereHardlyEverSeen) {
     const auto json =
         study("dynamics --only appears --sensors 16 --after 1 --baselines octomap:0.1");
-    const auto& voxels = rowOf(json["appears"], "octomap:0.1");
+    const auto voxels = rowOf(json["appears"], "octomap:0.1");
     // One miss is -0.4, one hit is 0.85.
     EXPECT_EQ(voxels["scans_to_half"], 1);
     EXPECT_LE(voxels["scans_to_99pct"], 3);
