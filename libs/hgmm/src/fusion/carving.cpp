@@ -10,8 +10,8 @@ namespace hgmm {
 
 namespace {
 
-/// Rays end so many of a component's standard deviations behind it.
-constexpr double kBehindSigmas = 3.0;
+/// The nearest rays about a component end so many of its standard deviations behind it.
+constexpr double kAroundSigmas = 3.0;
 /// So many rays through the core of a component, of which this share ends behind it, say
 /// that it is gone.
 constexpr int kLeastRays = 3;
@@ -30,7 +30,7 @@ struct View {
 
 /// Whether the nearest rays about the mean and most of the sigma points all end behind.
 bool allAroundPass(const View& view, const RayImage& image) {
-    const double margin_m = kBehindSigmas * view.sigma_m;
+    const double margin_m = kAroundSigmas * view.sigma_m;
     const auto passes = [&](const Eigen::Vector3d& towards) {
         return image.nearestRange(towards) > towards.norm() + margin_m;
     };
@@ -38,7 +38,7 @@ bool allAroundPass(const View& view, const RayImage& image) {
     // Points whose moments are the component's: mean +- sqrt(3) columns of the factor.
     int passed = 0;
     for (int axis = 0; axis < 3; ++axis)
-        for (const double side : {-1.7320508, 1.7320508})
+        for (const double side : {-kTileReach, kTileReach})
             passed += passes(view.towards + side * view.factor.col(axis)) ? 1 : 0;
     return passed >= 4;
 }
@@ -66,16 +66,17 @@ int countRays(const View& view, const RayImage& image, double sigmas, double beh
 /// Whether rays through the core of the component, one standard deviation, end behind it,
 /// whatever the rays beside it meet: the floor before it, for instance.
 bool coreIsPassed(const View& view, const RayImage& image) {
-    const double margin_m = kBehindSigmas * view.sigma_m + poseErrorAt(view.range_m);
+    const double margin_m = clearBehind(view.sigma_m, view.range_m);
     // Few rays are long enough to pass what is there, so these are asked first.
     const int passing = countRays(view, image, 1.0, margin_m);
     return passing >= kLeastRays &&
            passing >= kPassingShare * countRays(view, image, 1.0, -margin_m);
 }
 
-/// Whether a good part of the rays through the tile of a component end on it.
+/// Whether a good part of the rays through the tile of a component end on it. So it is
+/// where no ray goes through: those beside it do not say that it is gone.
 bool isHitBeside(const View& view, const RayImage& image) {
-    const double margin_m = kBehindSigmas * view.sigma_m + poseErrorAt(view.range_m);
+    const double margin_m = clearBehind(view.sigma_m, view.range_m);
     const int passing = countRays(view, image, kTileReach, margin_m),
               all = countRays(view, image, kTileReach, -margin_m);
     return all - passing >= kHitShare * all;

@@ -12,7 +12,9 @@ constexpr double kWidthPerThickness = 7.0;
 /// Range noise and shallow steps, as of a door in its frame, make narrow pieces thick: less
 /// thick ones need be four times wider only [m].
 constexpr double kNoise_m = 0.04, kWidthPerNoise = 4.0;
-/// At 1 m, growing with the root of the range [m], and of the range [1].
+constexpr double kBehindSigmas = 3.0;
+/// What poses are off by at 1 m, growing with the root of the range [m], and of the range
+/// [1].
 constexpr double kErrorAtOneMetre_m = 0.02, kErrorPerMetre = 0.015;
 
 }  // namespace
@@ -33,8 +35,9 @@ bool isSheet(const Piece& piece) {
     return piece.thickness_m * most <= piece.width_m;
 }
 
-double poseErrorAt(double range_m) {
-    return kErrorAtOneMetre_m * std::sqrt(range_m) + kErrorPerMetre * range_m;
+double clearBehind(double sigma_m, double range_m) {
+    return kBehindSigmas * sigma_m + kErrorAtOneMetre_m * std::sqrt(range_m) +
+           kErrorPerMetre * range_m;
 }
 
 }  // namespace hgmm

@@ -19,8 +19,9 @@ Piece pieceOf(const Gaussian<3>& component, const Eigen::Vector3d& normalOfRays)
 /// as bushes and corners, let rays pass and are still there.
 bool isSheet(const Piece& piece);
 
-/// Poses are off by so much at a range, at most: a ray that ends nearer behind a surface
-/// may have met it [m].
-double poseErrorAt(double range_m);
+/// A ray went through a surface if it ends so far behind it [m]: 3 standard deviations, and
+/// what poses may be off by.
+/// @param sigma_m of the surface, in the direction in which it is asked [m]
+double clearBehind(double sigma_m, double range_m);
 
 }  // namespace hgmm

@@ -16,9 +16,6 @@ namespace {
 constexpr double kTileReach2 = 3.0;
 /// Rays farther apart do not tell: too few end beside an edge [m].
 constexpr double kSparsest_m = 0.125;
-/// Rays end so many standard deviations behind what they go through, and by what poses may
-/// be off besides.
-constexpr double kBehindSigmas = 3.0;
 /// All rays are asked for a tile that reaches farther from its mean, as a share of its
 /// range: sine of 0.6 rad.
 constexpr double kWidest = 0.56;
@@ -83,7 +80,7 @@ class Passage {
         const double approach = piece_.normal.dot(ray.direction);
         const double range_m = height_m_ / approach;
         if (!(range_m > 0 && range_m < ray.length_m)) return std::nullopt;
-        const double clear_m = kBehindSigmas * piece_.thickness_m + poseErrorAt(range_m);
+        const double clear_m = clearBehind(piece_.thickness_m, range_m);
         if (std::abs(height_m_) < clear_m ||
             (ray.length_m - range_m) * std::abs(approach) < clear_m)
             return std::nullopt;
