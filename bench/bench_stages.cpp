@@ -98,6 +98,21 @@ void logDensity(benchmark::State& state) {
 }
 BENCHMARK(logDensity)->ArgName("rooms")->Arg(1)->Arg(100);
 
+/// The first answer of a copy, which prepares its index, and of a snapshot, which has it.
+void firstAnswer(benchmark::State& state) {
+    hgmm::Map map = corridorOfRooms(static_cast<int>(state.range(0)));
+    const Eigen::Vector3d point = map.origin() + Eigen::Vector3d(1, 1, 0);
+    map.occupancy(point);
+    for (auto _ : state) {
+        if (state.range(1) == 0)
+            benchmark::DoNotOptimize(hgmm::Map(map).occupancy(point));
+        else
+            benchmark::DoNotOptimize(map.snapshot()->occupancy(point));
+    }
+    state.counters["KB"] = static_cast<double>(map.liveBytes()) / 1000;
+}
+BENCHMARK(firstAnswer)->ArgNames({"rooms", "snapshot"})->ArgsProduct({{1, 100}, {0, 1}});
+
 void surfaceLikelihood(benchmark::State& state) {
     const hgmm::Map map = corridorOfRooms(1);
     const hgmm::SurfaceLikelihood likelihood(map.mixture(), 0.1, 0.05);

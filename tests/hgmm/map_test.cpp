@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <thread>
 
 #include "room_scanner.h"
@@ -189,6 +190,27 @@ TEST(Map, CopiesAreIndependent) {
     EXPECT_EQ(copy.save(), original.save());
     copy.clear();
     EXPECT_TRUE(copy.empty());
+}
+
+TEST(Map, SnapshotsAreReadyAndStayAsTheyWere) {
+    Map map = roomMap(2);
+    for (int k = 0; k < 3; ++k) {
+        const std::shared_ptr<const Map> snapshot = map.snapshot();
+        EXPECT_EQ(*snapshot, map);
+        const auto buffer = snapshot->save();
+        const std::size_t held = snapshot->liveBytes();
+        map.insert(RoomScanner().scan(poseAt(1, 1, 1), 77 + k));
+        const Map fresh = *snapshot;  // prepares everything itself
+        for (double x = -3.9; x < 4; x += 0.13) {
+            const Eigen::Vector3d p(x, 0.3 * x, 1.1);
+            const Occupancy a = snapshot->occupancy(p), b = fresh.occupancy(p);
+            EXPECT_EQ(a.occupied, b.occupied);
+            EXPECT_EQ(a.free, b.free);
+            EXPECT_EQ(a.alongRay_m, b.alongRay_m);
+        }
+        EXPECT_EQ(snapshot->liveBytes(), held);
+        EXPECT_EQ(snapshot->save(), buffer);
+    }
 }
 
 TEST(Map, ConcurrentReadersOfACopyAgree) {

@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <utility>
@@ -196,6 +198,39 @@ TEST(ConcurrentReads, SavingGoesOnWhileOthersRead) {
 
 TEST(ConcurrentReads, MixturesServeAlignmentAndLikelihoodOfSeveral) {
     readTogether({registrations, likelihoods, levels});
+}
+
+/// Readers of snapshots, while a writer inserts.
+TEST(Snapshots, AreReadWhileTheMapGrows) {
+    Map map = fresh();
+    std::shared_ptr<const Map> published = map.snapshot();
+    std::mutex publishing;
+    std::atomic<bool> isDone{false};
+    std::vector<std::thread> readers;
+    std::atomic<int> wrong{0};
+    for (int r = 0; r < 2; ++r)
+        readers.emplace_back([&] {
+            while (!isDone) {
+                std::shared_ptr<const Map> mine;
+                {
+                    const std::lock_guard<std::mutex> lock(publishing);
+                    mine = published;
+                }
+                const Numbers first = occupancies(*mine);
+                if (first != occupancies(*mine)) ++wrong;
+            }
+        });
+    const std::vector<std::pair<std::string, testing::Painting>> channels = {
+        {"heat", testing::patches({10, 20, 30})}, {"gloss", testing::patches({1, 3})}};
+    for (const std::uint64_t seed : {3, 4, 5}) {
+        map.insert(testing::paintedWall(channels, seed, 60, 40));
+        const std::lock_guard<std::mutex> lock(publishing);
+        published = map.snapshot();
+    }
+    isDone = true;
+    for (std::thread& reader : readers) reader.join();
+    EXPECT_EQ(wrong, 0);
+    EXPECT_EQ(occupancies(*published), occupancies(Map(map)));
 }
 
 }  // namespace hgmm

@@ -63,6 +63,11 @@ class HGMM_EXPORT Map {
     Map& operator=(Map&& o) noexcept;
     ~Map();
 
+    /// A copy for readers on other threads, ready for queries of level 0, so that they
+    /// never wait for a writer: it calls this between its changes and hands the result on.
+    /// Takes time and memory as a copy of the bytes that liveBytes() counts.
+    std::shared_ptr<const Map> snapshot() const;
+
     /// A map that knows what a map of another kind does, as one of octrees or grids:
     /// surfaces, from the outer faces of occupied cells, seen from the side of the free
     /// cells; coverage, which is exactly the free cells; what is unknown stays so. Throws

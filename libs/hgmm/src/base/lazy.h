@@ -9,6 +9,16 @@ namespace hgmm {
 template <typename T>
 class Lazy {
  public:
+    Lazy() = default;
+    /// With a value of its own, if the other one has it; other readers may make it
+    /// meanwhile.
+    Lazy(const Lazy& o) {
+        const T* const value = o.ready();
+        if (value == nullptr) return;
+        value_ = std::make_unique<T>(*value);
+        ready_.store(value_.get(), std::memory_order_release);
+    }
+    Lazy& operator=(const Lazy&) = delete;
     /// @param make returns a std::unique_ptr<T>
     template <typename Make>
     const T& get(Make&& make) {

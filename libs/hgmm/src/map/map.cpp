@@ -27,6 +27,14 @@ Map& Map::operator=(Map&& o) noexcept {
 }
 Map::~Map() = default;
 
+std::shared_ptr<const Map> Map::snapshot() const {
+    // Asked for once, they follow the changes of this map.
+    state_->cache.occupancy(0);
+    auto copy = std::make_shared<Map>();
+    copy->state_ = std::make_unique<State>(*state_, state_->cache);
+    return copy;
+}
+
 const MapParams& Map::params() const {
     return state_->model.params;
 }

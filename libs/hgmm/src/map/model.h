@@ -32,7 +32,7 @@ struct Model {
 };
 
 /// The model, and what is computed from it when asked for. Copies share nothing and begin
-/// with an empty cache.
+/// with an empty cache; snapshots have what level 0 had.
 struct Map::State {
     Model model;
     QueryCache cache{model};
@@ -40,6 +40,8 @@ struct Map::State {
     State() = default;
     explicit State(Model m) : model(std::move(m)) {}
     State(const State& o) : model(o.model) {}
+    State(const State& o, const QueryCache& prepared)
+        : model(o.model), cache(model, prepared) {}
     State& operator=(const State&) = delete;
 };
 

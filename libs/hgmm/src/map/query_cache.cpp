@@ -31,6 +31,21 @@ ViewDirections viewDirectionsOfLevel(const ComponentStore& base,
 
 }  // namespace
 
+QueryCache::QueryCache(const Model& model, const QueryCache& o)
+    : model_(model), indices_(o.indices_), logTotalSupport_(o.logTotalSupport_) {
+    {
+        const std::lock_guard<std::mutex> lock(o.levelsMutex_);
+        blocks_ = o.blocks_;
+    }
+    const auto* const levels = o.levels_.ready();
+    if (levels == nullptr) return;
+    if (const OccupancyModel* const made = levels->front()->occupancy.ready())
+        levelAt(0).occupancy.get([&] {
+            return std::make_unique<OccupancyModel>(*made, surfaces(0), model.coverage,
+                                                    model.openings);
+        });
+}
+
 /// A component's mean as its index has it, which is that of its row before the change.
 Eigen::Vector3f QueryCache::Indices::mean(std::uint32_t i) const {
     const ComponentIndex::Factor& factor = components.factor(i);
@@ -160,17 +175,20 @@ const PatchTree<D>& QueryCache::patches(std::size_t level) const {
 template const PatchTree<2>& QueryCache::patches<2>(std::size_t) const;
 template const PatchTree<3>& QueryCache::patches<3>(std::size_t) const;
 
+OccupancyModel::Surfaces QueryCache::surfaces(std::size_t level) const {
+    if (level == 0)
+        return {model_.components.surfaces(), model_.components.viewDirections(), index()};
+    return {mixture(level), viewDirections(level), index(level)};
+}
+
 std::unique_ptr<OccupancyModel> QueryCache::makeOccupancy(std::size_t level) const {
     const bool isBase = level == 0;
-    const Mixture<3>& surfaces = isBase ? model_.components.surfaces() : mixture(level);
-    const ViewDirections& views =
-        isBase ? model_.components.viewDirections() : viewDirections(level);
+    const OccupancyModel::Surfaces surfaces = this->surfaces(level);
     const Mixture<4>& free = isBase ? model_.freeSpace.mixture() : freeMixture(level);
     const Coverage& coverage = isBase ? model_.coverage : this->coverage(level);
-    auto made = std::make_unique<OccupancyModel>(
-        model_.params.occupancy, OccupancyModel::Surfaces{surfaces, views, index(level)},
-        coverage, model_.openings);
-    for (std::uint32_t i = 0; i < surfaces.size(); ++i) made->updateSurface(i);
+    auto made = std::make_unique<OccupancyModel>(model_.params.occupancy, surfaces,
+                                                 coverage, model_.openings);
+    for (std::uint32_t i = 0; i < surfaces.rows.size(); ++i) made->updateSurface(i);
     for (std::uint32_t i = 0; i < free.size(); ++i) made->updateFree(i, free[i]);
     return made;
 }

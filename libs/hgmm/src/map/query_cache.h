@@ -25,6 +25,11 @@ class QueryCache {
  public:
     /// @param model read whenever asked; must outlive the cache
     explicit QueryCache(const Model& model) : model_(model) {}
+    /// For a copy of another cache's model, with what level 0 has there. Readers of the
+    /// other one may go on meanwhile.
+    QueryCache(const Model& model, const QueryCache& o);
+    QueryCache(const QueryCache&) = delete;
+    QueryCache& operator=(const QueryCache&) = delete;
 
     /// Components that contain a point, by their 4 sigma ellipsoids.
     const ComponentIndex& index() const { return indices().components; }
@@ -79,6 +84,8 @@ class QueryCache {
     const Indices& indices() const;
     Level& levelAt(std::size_t level) const;
     Level& upperLevel(std::size_t level) const;
+    /// What it reads.
+    OccupancyModel::Surfaces surfaces(std::size_t level) const;
     std::unique_ptr<OccupancyModel> makeOccupancy(std::size_t level) const;
 
     const Model& model_;

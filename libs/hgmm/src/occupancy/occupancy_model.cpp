@@ -56,6 +56,20 @@ OccupancyModel::OccupancyModel(const OccupancyParams& params, const Surfaces& su
     params.validate();
 }
 
+OccupancyModel::OccupancyModel(const OccupancyModel& o, const Surfaces& surfaces,
+                               const Coverage& coverage, const Openings& openings)
+    : params_(o.params_),
+      surfaces_(surfaces),
+      coverage_(coverage),
+      openings_(openings),
+      unknownDensity_(o.unknownDensity_),
+      sharpness_(o.sharpness_),
+      freeJoints_(o.freeJoints_),
+      boxes_(o.boxes_),
+      bandBoxes_(o.bandBoxes_),
+      freeBoxes_(o.freeBoxes_),
+      bounds_(o.bounds_) {}
+
 OccupancyModel::Joint OccupancyModel::jointOf(const Gaussian<4>& g) {
     Gaussian<3> place;
     place.mean = g.mean.head<3>();

@@ -52,6 +52,11 @@ class OccupancyModel {
     /// Throws std::invalid_argument naming the field.
     OccupancyModel(const OccupancyParams& params, const Surfaces& surfaces,
                    const Coverage& coverage, const Openings& openings);
+    /// The same components, as copies of what another one reads have them.
+    OccupancyModel(const OccupancyModel& o, const Surfaces& surfaces,
+                   const Coverage& coverage, const Openings& openings);
+    OccupancyModel(const OccupancyModel&) = delete;
+    OccupancyModel& operator=(const OccupancyModel&) = delete;
 
     /// Answers depend on a component only at points that a BoxIndex with this box leads to.
     static BoxCells::Box reachOf(const OccupancyParams& params, const Gaussian<3>& surface,
