@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <unordered_map>
 
@@ -19,7 +20,8 @@ TEST(CellBlocks, HoldWhatAMapOfWordsHolds) {
         const LatticeCell block{octave(engine), place(engine), place(engine),
                                 place(engine)};
         const CellBlocks::Word cells =
-            step % 3 == 0 ? CellBlocks::kAllCells : engine() & engine() & engine();
+            step % 3 == 0 ? CellBlocks::kAllCells
+                          : std::max<CellBlocks::Word>(engine() & engine() & engine(), 1);
         if (step / 3000 % 2 == 0) {
             EXPECT_EQ(blocks.mark(block, cells), oracle[block] == 0);
             oracle[block] |= cells;

@@ -143,8 +143,8 @@ double goldberger(const Mixture<D>& p, const Mixture<D>& q) {
     double sum = 0;
     for (std::size_t i = 0; i < p.size(); ++i) {
         const double weight = p.weight(i, p.totalSupport());
-        typename GoldbergerSearch<D>::Match best;
-        search.improve(p[i], WhitenedGaussian<D>(p[i]), std::log(weight), best);
+        GoldbergerMatch best;
+        search.improve(PreparedGaussian<D>(p[i]), std::log(weight), best);
         sum += weight * best.cost;
     }
     return sum;

@@ -82,9 +82,12 @@ TEST(RayImage, FindsTheRaysAroundADirection) {
             if (ray.norm() >= length && ray.normalized().dot(u) > std::cos(angle))
                 ++expected;
         }
-        image.visitAround(u, angle, length, [&](const RayImage::Ray& ray) {
-            if (ray.length_m >= length && ray.direction.dot(u) > std::cos(angle)) ++found;
-        });
+        image.visitAround(
+            u, RayImage::Cone::ofSine(std::sin(angle)), length,
+            [&](const RayImage::Ray& ray) {
+                if (ray.length_m >= length && ray.direction.dot(u) > std::cos(angle))
+                    ++found;
+            });
         EXPECT_EQ(found, expected);
     }
 }

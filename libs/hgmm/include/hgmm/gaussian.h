@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hgmm/mixture.h"
+#include "hgmm/portable_math.h"
 
 namespace hgmm {
 
@@ -90,7 +91,7 @@ WhitenedGaussian<D, Scalar>::WhitenedGaussian(const Gaussian<D>& g, double minVa
             for (int k = 0; k < j; ++k) s -= L[i][k] * L[j][k];
             if (i == j) {
                 L[i][i] = std::sqrt(s > minVariance ? s : minVariance);
-                logDet += 2.0 * std::log(L[i][i]);
+                logDet += 2.0 * portable::log(L[i][i]);
             } else {
                 L[i][j] = s / L[j][j];
             }

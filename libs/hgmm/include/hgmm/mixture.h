@@ -75,6 +75,13 @@ class Mixture {
     /// Gathers component i. @throws std::out_of_range if i >= size().
     Gaussian<D> operator[](std::size_t i) const;
 
+    /// Mean of component i < size().
+    Eigen::Matrix<double, D, 1> meanAt(std::size_t i) const {
+        Eigen::Matrix<double, D, 1> m;
+        for (int d = 0; d < D; ++d) m[d] = mean[d][i];
+        return m;
+    }
+
     /// Joins another mixture over disjoint data: thesis eq. (3.23).
     void append(const Mixture& other);
 

@@ -18,6 +18,9 @@ struct LatticeCell {
         return {octave, floorOf(p.x() * perCell), floorOf(p.y() * perCell),
                 floorOf(p.z() * perCell)};
     }
+    Eigen::Vector3d centre() const {
+        return (Eigen::Vector3d(x, y, z).array() + 0.5) * powerOfTwo(octave);
+    }
     /// The cell of twice the size that holds this one.
     LatticeCell parent() const { return {octave + 1, x >> 1, y >> 1, z >> 1}; }
     bool operator==(const LatticeCell& o) const {

@@ -48,10 +48,9 @@ bool allAroundPass(const View& view, const RayImage& image) {
 int countRays(const View& view, const RayImage& image, double sigmas, double behind_m) {
     const auto factor = view.factor.triangularView<Eigen::Lower>();
     const Eigen::Vector3d mean = factor.solve(view.towards);
-    const double angle =
-        std::min(std::atan(sigmas * view.factor.norm() / view.range_m), 0.5);
+    const auto cone = RayImage::Cone::ofTangent(sigmas * view.factor.norm() / view.range_m);
     int rays = 0;
-    image.visitAround(view.towards / view.range_m, angle,
+    image.visitAround(view.towards / view.range_m, cone,
                       view.range_m - sigmas * view.sigma_m + behind_m,
                       [&](const RayImage::Ray& ray) {
                           const Eigen::Vector3d along = factor.solve(ray.direction);

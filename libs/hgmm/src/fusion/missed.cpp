@@ -28,7 +28,8 @@ bool isMissed(const Gaussian<3>& component, const ComponentIndex::Factor& W,
     const double extent = std::sqrt(component.covariance.trace()),
                  angle = std::min(std::max(halfSpacing, extent / range), kWidest_rad),
                  length = range - std::sqrt(rays.limit.maxVarianceAt(range));
-    return rays.image.anyAround(direction, angle, length, [&](const RayImage::Ray& ray) {
+    const auto cone = RayImage::Cone::ofSine(angle);  // the sine of a little more
+    return rays.image.anyAround(direction, cone, length, [&](const RayImage::Ray& ray) {
         const double aside2 = (ray.direction - direction).squaredNorm();
         if (!(ray.length_m >= length && aside2 <= angle * angle)) return false;
         if (aside2 <= halfSpacing * halfSpacing) return true;

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
-#include "base/simd.h"
 #include "hgmm/params.h"
 #include "index/cell_order.h"
+#include "index/within.h"
 
 namespace hgmm {
 
@@ -37,25 +36,6 @@ Eigen::Vector3d transposed(const Factor& factor, const Eigen::Vector3d& w) {
     return v;
 }
 
-/// Factor::isWithin of four points: -1 or 0 each, and the same sums.
-Int4 isWithin(const Factor& factor, const CellOrder& points, std::size_t k,
-              float maxSquared) {
-    Float4 x, y, z;
-    std::memcpy(&x, points.x.data() + k, sizeof(x));
-    std::memcpy(&y, points.y.data() + k, sizeof(y));
-    std::memcpy(&z, points.z.data() + k, sizeof(z));
-    x -= factor.mean(0), y -= factor.mean(1), z -= factor.mean(2);
-    const Float4 a = factor.factor(0, 0) * x;
-    const Float4 b = factor.factor(1, 0) * x + factor.factor(1, 1) * y;
-    const Float4 c =
-        factor.factor(2, 0) * x + factor.factor(2, 1) * y + factor.factor(2, 2) * z;
-    return a * a + b * b + c * c <= maxSquared;
-}
-
-struct Match {
-    std::uint32_t sample, component;
-};
-
 /// Of one chunk of samples, in no order.
 struct Found {
     std::vector<Match> explained, oversized;
@@ -73,18 +53,8 @@ class NoveltyTest {
 
     Found find(std::size_t begin, std::size_t end) const {
         Found found;
-        index_.visitCandidates(samples_, begin, end,
-                               [&](std::uint32_t j, std::size_t first, std::size_t last) {
-                                   for (std::size_t k = first; k < last; k += 4) {
-                                       const Int4 within = isWithin(
-                                           index_.factor(j), samples_, k, maxSquared_);
-                                       const std::size_t lanes =
-                                           std::min<std::size_t>(4, last - k);
-                                       for (std::size_t lane = 0; lane < lanes; ++lane)
-                                           if (within[lane] != 0)
-                                               examine(k + lane, j, found);
-                                   }
-                               });
+        visitWithin(index_, samples_, begin, end, maxSquared_,
+                    [&](std::size_t k, std::uint32_t j) { examine(k, j, found); });
         return found;
     }
 
@@ -113,27 +83,20 @@ class NoveltyTest {
     float maxSquared_;
 };
 
-/// Components by sample, rising.
-Neighbourhoods bySample(const std::vector<Found>& found, std::size_t samples) {
-    Neighbourhoods all;
-    all.begin.assign(samples + 1, 0);
+std::vector<Match> explainedOf(const std::vector<Found>& found) {
+    std::size_t count = 0;
+    for (const Found& f : found) count += f.explained.size();
+    std::vector<Match> explained;
+    explained.reserve(count);
     for (const Found& f : found)
-        for (const Match& m : f.explained) ++all.begin[m.sample + 1];
-    for (std::size_t i = 0; i < samples; ++i) all.begin[i + 1] += all.begin[i];
-    all.component.resize(all.begin[samples]);
-    std::vector<std::uint32_t> next(all.begin.begin(), all.begin.end() - 1);
-    for (const Found& f : found)
-        for (const Match& m : f.explained) all.component[next[m.sample]++] = m.component;
-    for (std::size_t i = 0; i < samples; ++i)
-        std::sort(all.component.begin() + all.begin[i],
-                  all.component.begin() + all.begin[i + 1]);
-    return all;
+        explained.insert(explained.end(), f.explained.begin(), f.explained.end());
+    return explained;
 }
 
 std::vector<NoveltySplit::Oversized> oversizedOf(const std::vector<Found>& found) {
     std::vector<NoveltySplit::Oversized> oversized;
     for (const Found& f : found)
-        for (const Match& m : f.oversized) oversized.push_back({m.component, m.sample});
+        for (const Match& m : f.oversized) oversized.push_back({m.component, m.point});
     std::sort(oversized.begin(), oversized.end(), [](const auto& a, const auto& b) {
         return a.sample != b.sample ? a.sample < b.sample : a.component < b.component;
     });
@@ -155,7 +118,7 @@ NoveltySplit splitByNovelty(const Mixture<3>& samples, const ComponentIndex& ind
         found[c] = test.find(c * kSamplesPerChunk,
                              std::min(samples.size(), (c + 1) * kSamplesPerChunk));
 
-    Neighbourhoods all = bySample(found, samples.size());
+    Neighbourhoods all = neighbourhoodsOf(explainedOf(found), samples.size());
     NoveltySplit split;
     split.neighbourhoods.begin.push_back(0);
     for (std::size_t i = 0; i < samples.size(); ++i) {

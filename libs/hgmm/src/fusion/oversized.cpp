@@ -10,6 +10,7 @@
 #include "base/power_of_two.h"
 #include "fusion/novelty.h"
 #include "fusion/responsibilities.h"
+#include "hgmm/portable_math.h"
 
 namespace hgmm {
 
@@ -33,7 +34,7 @@ std::vector<Share> oversizedShares(const Mixture<3>& mixture, const ComponentInd
             ++end;
         const float point[3] = {samples.mean[0][i], samples.mean[1][i], samples.mean[2][i]};
         const auto add = [&](std::uint32_t j) {
-            p.push_back(std::log(double(mixture.support[j])) +
+            p.push_back(portable::log(double(mixture.support[j])) +
                         index.factor(j).logPdf(point));
         };
         p.clear();

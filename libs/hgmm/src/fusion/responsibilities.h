@@ -1,7 +1,8 @@
 #pragma once
 #include <algorithm>
-#include <cmath>
 #include <vector>
+
+#include "hgmm/portable_math.h"
 
 namespace hgmm {
 
@@ -9,7 +10,7 @@ namespace hgmm {
 inline void normalise(std::vector<double>& p) {
     const double largest = *std::max_element(p.begin(), p.end());
     double sum = 0;
-    for (double& v : p) sum += v = std::exp(v - largest);
+    for (double& v : p) sum += v = portable::exp(v - largest);
     for (double& v : p) v /= sum;
 }
 

@@ -3,12 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/hash_table.h"
 #include "fusion/responsibilities.h"
+#include "hgmm/portable_math.h"
 #include "mixture/regularized.h"
 
 namespace hgmm {
 
 namespace {
+
+struct RowKeys {
+    static std::uint32_t unused() { return 0xFFFFFFFFU; }
+    static std::uint32_t hash(std::uint32_t row) { return row * 0x9E3779B1U; }
+};
+using RowTable = HashTable<std::uint32_t, std::uint32_t, RowKeys>;
 
 /// What one scan adds to a component: responsibility-weighted sums about its old mean.
 struct Addition {
@@ -35,7 +43,8 @@ std::vector<Addition> emptyAdditions(const Mixture<3>& mixture, const NoveltySpl
     std::vector<Addition> additions;
     additions.reserve(components.size());
     for (const std::uint32_t j : components)
-        additions.push_back({j, std::log(double(mixture.support[j])), mixture[j].mean});
+        additions.push_back(
+            {j, portable::log(double(mixture.support[j])), mixture[j].mean});
     return additions;
 }
 
@@ -74,6 +83,10 @@ Gaussian<3> shareOf(const Gaussian<3>& old, const Addition& a) {
 KnownUpdate updateKnown(const Mixture<3>& mixture, const ComponentIndex& index,
                         const Mixture<3>& samples, const NoveltySplit& split) {
     std::vector<Addition> additions = emptyAdditions(mixture, split);
+    RowTable places;
+    places.reserve(additions.size());
+    for (std::uint32_t k = 0; k < additions.size(); ++k)
+        places.tryEmplace(additions[k].component, k);
     std::vector<Addition*> neighbours;
     std::vector<double> p;
     for (std::size_t k = 0; k < split.known.size(); ++k) {
@@ -83,9 +96,8 @@ KnownUpdate updateKnown(const Mixture<3>& mixture, const ComponentIndex& index,
         neighbours.clear();
         for (std::uint32_t e = split.neighbourhoods.begin[k];
              e < split.neighbourhoods.begin[k + 1]; ++e)
-            neighbours.push_back(&*std::lower_bound(
-                additions.begin(), additions.end(), split.neighbourhoods.component[e],
-                [](const Addition& a, std::uint32_t j) { return a.component < j; }));
+            neighbours.push_back(
+                &additions[*places.find(split.neighbourhoods.component[e])]);
         responsibilities(neighbours, index, point, p);
         for (std::size_t n = 0; n < neighbours.size(); ++n)
             neighbours[n]->add(p[n] * sample.support, sample);

@@ -2,13 +2,16 @@
 
 namespace hgmm {
 
-bool CellBlocks::mark(const LatticeCell& block, Word cells) {
-    Group& group = *groups_.tryEmplace(blockOf(block), Group{}).first;
-    const unsigned place = placeOf(block);
+const CellBlocks::Group CellBlocks::kNoBlocks{};
+
+CellBlocks::Group& CellBlocks::groupToMark(const LatticeCell& group) {
+    return *groups_.tryEmplace(group, Group{}).first;
+}
+
+bool CellBlocks::markNew(Group& group, unsigned place, Word cells) {
     const Word bit = Word{1} << place;
     const bool isNew = (group.present & bit) == 0;
     const Word before = wordIn(group, place), after = before | cells;
-    if (after == before) return isNew;
     const unsigned rank = rankOf(group, place);
     if (after == kAllCells) {
         if (!isNew) words_.erase(group.words, rank);

@@ -12,6 +12,7 @@
 #include "hgmm/em.h"
 #include "hgmm/hierarchy.h"
 #include "hgmm/map.h"
+#include "hgmm/portable_math.h"
 #include "map/model.h"
 #include "occupancy/passed_surfaces.h"
 #include "scan/cells.h"
@@ -153,8 +154,8 @@ void carve(const Mixture<3>& samples, const ScanSamples& scan, const Pose& T_loc
 
     const std::vector<std::uint32_t> missedRows =
         missed(store.surfaces(), hit, kTrustedHits, rays, cache.index(), near);
-    weaken(store, missedRows, std::pow(carved, 1.0 / kMissesPerCarving), kTrustedHits,
-           weakened);
+    weaken(store, missedRows, portable::exp(portable::log(carved) / kMissesPerCarving),
+           kTrustedHits, weakened);
     const Coverage::Rays cells(model.params.occupancy.coverage, scan.raySpacing_rad,
                                limit.normalOfRays);
     model.openings.learn(

@@ -1,6 +1,5 @@
 #pragma once
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "hgmm/divergence.h"
+#include "hgmm/portable_math.h"
 #include "mixture/goldberger.h"
 #include "mixture/regularized.h"
 
@@ -20,14 +20,11 @@ namespace hgmm {
 /// pass and found anew for components that merged, so a pass at a similarity below the
 /// least of them costs nothing. KL(f || g) is at least
 /// (mu_f - mu_g)_a^2 / (2 Sigma_g,aa) along any axis a: only components that this allows
-/// are compared.
+/// are compared (BoundTree).
 template <int D>
 class Agglomeration {
  public:
-    struct Part {
-        Gaussian<D> gaussian;
-        WhitenedGaussian<D> whitened;
-    };
+    using Part = PreparedGaussian<D>;
 
     explicit Agglomeration(const Mixture<D>& mixture);
 
@@ -44,18 +41,20 @@ class Agglomeration {
     const std::vector<std::uint32_t>& grown() const { return grown_; }
     bool hasGrown(std::uint32_t row) const { return hasGrown_[row]; }
     const Part& part(std::uint32_t row) const { return parts_[row]; }
-    /// The axis along which the first mixture's means spread most.
-    int axis() const { return axis_; }
-    /// Of the components left [count].
-    double totalSupport() const;
+    /// Logarithm of a component's share of those left, as of that pass.
+    double logWeight(std::uint32_t row) const { return tree_.item(row).logWeight; }
+    /// The row of the component left that explains f best (improveMatch), as of that pass.
+    void improve(const Part& f, double logWeight, GoldbergerMatch& best) const {
+        const auto part = [this](std::uint32_t row) -> const Part& { return parts_[row]; };
+        improveMatch(tree_, part, f, logWeight, best);
+    }
     /// The row of the component that holds the one of a row now.
     std::uint32_t heirOf(std::uint32_t row) const;
     /// Index in mixture() of the component that holds each of the first mixture.
     std::vector<std::uint32_t> parents() const;
 
  private:
-    static constexpr double kLeastVariance = 1e-12;  ///< factoring raises pivots to this
-    static constexpr double kFirstHorizon = 2.0;     ///< [nat]
+    static constexpr double kFirstHorizon = 2.0;  ///< [nat]
 
     struct Pair {
         std::uint32_t row;
@@ -64,30 +63,10 @@ class Agglomeration {
     using Pairs = std::vector<Pair>;
 
     void widenHorizon(double similarity);
-    /// Sorts what the bound needs of the components left along the axis.
-    void sortPlaces();
     /// Merges later rows into row i; whether there were any.
     bool absorbLater(std::uint32_t i, double similarity);
-    /// Components left, other than row i, at places from `first` on and nearer than
-    /// `limit`.
-    void findPairs(std::uint32_t i, std::size_t first, double limit, Pairs& pairs) const;
-    /// Of all places.
-    void findPairs(std::uint32_t i, double limit, Pairs& pairs) const {
-        const double reach = reachOf(parts_[i].gaussian, limit);
-        const std::vector<double>& along = means_[axis_];
-        const auto first = std::lower_bound(along.begin(), along.end(),
-                                            parts_[i].gaussian.mean[axis_] - reach);
-        findPairs(i, static_cast<std::size_t>(first - along.begin()), limit, pairs);
-    }
-    /// How far along the axis the bound lets a component nearer than `limit` be [m].
-    double reachOf(const Gaussian<D>& g, double limit) const {
-        const double own = g.covariance(axis_, axis_) + kLeastVariance;
-        return std::sqrt(twice(limit) * std::max(widest_, own));
-    }
-    static double twice(double limit) {
-        return 2 * limit * (1 + 1e-9);  // with a margin for rounding
-    }
-    bool passesBound(const Gaussian<D>& g, std::size_t place, double perTwice) const;
+    /// Components left, other than row i, that are nearer than `limit`.
+    void findPairs(std::uint32_t i, double limit, Pairs& pairs) const;
     double distance(const Part& a, const Part& b) const {
         return std::min(klDivergence(a.whitened, a.gaussian.covariance, b.whitened),
                         klDivergence(b.whitened, b.gaussian.covariance, a.whitened));
@@ -95,8 +74,10 @@ class Agglomeration {
     void findLeastDistance();
     /// What is stored of the components that grew, and pairs with them.
     void settleGrown();
+    /// Brings the tree up to date with the components that are left.
+    void refitTree();
+    double totalSupport() const;
 
-    int axis_ = 0;
     double horizon_ = kFirstHorizon;  ///< pairs at least as far apart are not kept [nat]
     double least_ = 0.0;              ///< of the distances kept, or the horizon [nat]
     std::vector<Part> parts_;
@@ -105,47 +86,32 @@ class Agglomeration {
     std::vector<std::uint32_t> takenOver_;  ///< of each row: by which, itself if left
     std::vector<std::uint32_t> grown_;
     std::vector<bool> hasGrown_;
-
-    std::vector<std::uint32_t> place_;                      ///< rows sorted along the axis
-    std::array<std::vector<double>, D> means_, variances_;  ///< by place
-    double widest_ = 0.0;                                   ///< largest variance [m^2]
+    BoundTree<D> tree_;  ///< by row
 };
 
 template <int D>
 Agglomeration<D>::Agglomeration(const Mixture<D>& mixture)
     : pairs_(mixture.size()), hasGrown_(mixture.size(), false) {
     if (mixture.empty()) return;
-    axis_ = widestAxis(mixture);
     parts_.reserve(mixture.size());
+    std::vector<typename BoundTree<D>::Item> items;
     for (std::size_t i = 0; i < mixture.size(); ++i) {
-        const Gaussian<D> g = mixture[i];
-        parts_.push_back({g, WhitenedGaussian<D>(g)});
+        parts_.emplace_back(mixture[i]);
         alive_.push_back(static_cast<std::uint32_t>(i));
+        items.push_back(boundItem(parts_[i].gaussian, 0.0));
     }
     takenOver_ = alive_;
-    sortPlaces();
+    tree_ = BoundTree<D>(std::move(items));
+    refitTree();
     widenHorizon(horizon_);
 }
 
 template <int D>
-void Agglomeration<D>::sortPlaces() {
-    std::vector<std::pair<double, std::uint32_t>> along;
-    along.reserve(alive_.size());
+void Agglomeration<D>::refitTree() {
+    const double total = totalSupport();
     for (const std::uint32_t i : alive_)
-        along.emplace_back(parts_[i].gaussian.mean[axis_], i);
-    std::sort(along.begin(), along.end());
-    place_.clear();
-    widest_ = 0.0;
-    for (int d = 0; d < D; ++d) means_[d].clear(), variances_[d].clear();
-    for (const auto& entry : along) {
-        const Gaussian<D>& g = parts_[entry.second].gaussian;
-        place_.push_back(entry.second);
-        for (int d = 0; d < D; ++d) {
-            means_[d].push_back(g.mean[d]);
-            variances_[d].push_back(g.covariance(d, d) + kLeastVariance);
-        }
-        widest_ = std::max(widest_, variances_[axis_].back());
-    }
+        tree_.item(i).logWeight = portable::log(parts_[i].gaussian.support / total);
+    tree_.refit();
 }
 
 template <int D>
@@ -153,10 +119,10 @@ void Agglomeration<D>::widenHorizon(double similarity) {
     while (horizon_ < similarity) horizon_ *= 2;
     for (const std::uint32_t i : alive_) pairs_[i].clear();
     Pairs later;
-    for (std::size_t k = 0; k < place_.size(); ++k) {
-        const std::uint32_t i = place_[k];
-        findPairs(i, k + 1, horizon_, later);
+    for (const std::uint32_t i : alive_) {
+        findPairs(i, horizon_, later);
         for (const Pair& pair : later) {
+            if (pair.row < i) continue;
             pairs_[i].push_back(pair);
             pairs_[pair.row].push_back({i, pair.distance});
         }
@@ -164,35 +130,28 @@ void Agglomeration<D>::widenHorizon(double similarity) {
     findLeastDistance();
 }
 
-/// Whether g and the component at `place` may be similar, either way round.
 template <int D>
-bool Agglomeration<D>::passesBound(const Gaussian<D>& g, std::size_t place,
-                                   double perTwice) const {
-    bool oneWay = true, otherWay = true;
-    for (int d = 0; d < D; ++d) {
-        const double gap = g.mean[d] - means_[d][place];
-        const double bounded = gap * gap * perTwice;
-        oneWay &= bounded <= variances_[d][place];
-        otherWay &= bounded <= g.covariance(d, d) + kLeastVariance;
-    }
-    return oneWay || otherWay;
-}
-
-template <int D>
-void Agglomeration<D>::findPairs(std::uint32_t i, std::size_t first, double limit,
-                                 Pairs& pairs) const {
+void Agglomeration<D>::findPairs(std::uint32_t i, double limit, Pairs& pairs) const {
     pairs.clear();
     const Part& part = parts_[i];
-    const std::vector<double>& along = means_[axis_];
-    const double last = part.gaussian.mean[axis_] + reachOf(part.gaussian, limit);
-    const double perTwice = 1 / twice(limit);
-    for (std::size_t place = first; place < along.size() && along[place] <= last; ++place) {
-        const std::uint32_t j = place_[place];
-        if (j == i || takenOver_[j] != j || !passesBound(part.gaussian, place, perTwice))
-            continue;
+    typename BoundTree<D>::Point mean, own;
+    const auto bounds = boundItem(part.gaussian, 0.0);
+    mean = bounds.mean, own = bounds.variance;
+    // Whether components may be similar, either way round.
+    const auto may = [&](auto&& gap, const typename BoundTree<D>::Point& variance) {
+        return mayBeWithin<D>(limit, gap, variance) || mayBeWithin<D>(limit, gap, own);
+    };
+    const auto mayHold = [&](const typename BoundTree<D>::Node& node) {
+        return may([&](int a) { return node.gap(mean, a); }, node.widest);
+    };
+    tree_.visit(mean, mayHold, [&](std::uint32_t j) {
+        const auto& item = tree_.item(j);
+        if (j == i || takenOver_[j] != j ||
+            !may([&](int a) { return item.mean[a] - mean[a]; }, item.variance))
+            return;
         const double apart = distance(part, parts_[j]);
         if (apart < limit) pairs.push_back({j, apart});
-    }
+    });
 }
 
 template <int D>
@@ -214,6 +173,7 @@ bool Agglomeration<D>::pass(double similarity) {
             grown_.push_back(i);
             hasGrown_[i] = true;
         }
+    for (const std::uint32_t i : alive_) tree_.item(i).isLeft = takenOver_[i] == i;
     alive_.erase(std::remove_if(alive_.begin(), alive_.end(),
                                 [&](std::uint32_t i) { return takenOver_[i] != i; }),
                  alive_.end());
@@ -236,8 +196,7 @@ bool Agglomeration<D>::absorbLater(std::uint32_t i, double similarity) {
                 next = pair.row;
         if (next == kNone) return after != i;
         takenOver_[next] = i;
-        part.gaussian = mergeMoments(part.gaussian, parts_[next].gaussian);
-        part.whitened = WhitenedGaussian<D>(part.gaussian);
+        part = Part(mergeMoments(part.gaussian, parts_[next].gaussian));
         // The part has moved and grown: its partners among the rest are others now.
         findPairs(i, similarity, afterGrowth);
         pairs = &afterGrowth;
@@ -250,23 +209,23 @@ void Agglomeration<D>::settleGrown() {
     Mixture<D> stored;  // in floats, as a level is
     for (const std::uint32_t i : grown_) stored.pushBack(regularized(parts_[i].gaussian));
     for (std::size_t k = 0; k < grown_.size(); ++k) {
-        const Gaussian<D> g = stored[k];
-        parts_[grown_[k]] = {g, WhitenedGaussian<D>(g)};
+        parts_[grown_[k]] = Part(stored[k]);
+        tree_.item(grown_[k]) = boundItem(parts_[grown_[k]].gaussian, 0.0);
     }
-    sortPlaces();
+    refitTree();
     for (const std::uint32_t i : alive_) {
         Pairs& pairs = pairs_[i];
         pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
                                    [&](const Pair& pair) {
                                        return takenOver_[pair.row] != pair.row ||
-                                              hasGrown_[pair.row];
+                                              hasGrown(pair.row);
                                    }),
                     pairs.end());
     }
     for (const std::uint32_t i : grown_) findPairs(i, horizon_, pairs_[i]);
     for (const std::uint32_t i : grown_)
         for (const Pair& pair : pairs_[i])
-            if (!hasGrown_[pair.row]) pairs_[pair.row].push_back({i, pair.distance});
+            if (!hasGrown(pair.row)) pairs_[pair.row].push_back({i, pair.distance});
     findLeastDistance();
 }
 

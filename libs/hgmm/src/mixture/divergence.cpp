@@ -58,10 +58,9 @@ double klDivergence(const Mixture<D>& p, const Mixture<D>& q) {
     const double total = p.totalSupport();
     double sum = 0;
     for (std::size_t i = 0; i < p.size(); ++i) {
-        const Gaussian<D> f = p[i];
         const double weight = p.weight(i, total);
-        typename GoldbergerSearch<D>::Match best;
-        search.improve(f, WhitenedGaussian<D>(f), std::log(weight), best);
+        GoldbergerMatch best;
+        search.improve(PreparedGaussian<D>(p[i]), std::log(weight), best);
         sum += weight * best.cost;
     }
     return sum;

@@ -9,6 +9,7 @@
 
 #include "hgmm/em.h"
 #include "hgmm/gaussian.h"
+#include "hgmm/portable_math.h"
 #include "mixture/regularized.h"
 
 namespace hgmm::em {
@@ -178,7 +179,7 @@ void Fit<D>::prepare(Component<D>& component) const {
             component.precision[k] = a == b ? entry : 2 * entry;
         }
     component.logWeightedPeak =
-        std::log(component.gaussian.support / total_) + whitened.logNormalizer();
+        portable::log(component.gaussian.support / total_) + whitened.logNormalizer();
 }
 
 template <int D>
@@ -199,11 +200,11 @@ double Fit<D>::expectSample(std::size_t i) {
     for (std::uint32_t e = first; e < last; ++e) {
         const double relative = responsibility_[e] - likeliest;
         // A share of exp(-20) moves no parameter that is kept as a float.
-        responsibility_[e] = relative < -20 ? 0 : std::exp(relative);
+        responsibility_[e] = relative < -20 ? 0 : portable::exp(relative);
         sum += responsibility_[e];
     }
     for (std::uint32_t e = first; e < last; ++e) responsibility_[e] /= sum;
-    return likeliest + std::log(sum);
+    return likeliest + portable::log(sum);
 }
 
 template <int D>

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "hgmm/params.h"
+#include "hgmm/portable_math.h"
 #include "mixture/agglomeration.h"
-#include "mixture/goldberger.h"
 #include "mixture/knee.h"
 
 namespace hgmm {
@@ -15,48 +16,84 @@ namespace hgmm {
 namespace {
 
 /// KL(G_0 || G_l) for one level after the other. A component of G_0 keeps its counterpart
-/// in G_l as long as that does not merge; then only merged ones can have come nearer.
+/// in G_l as long as that does not merge; then only merged ones can have come nearer: each
+/// of these, which are few, looks for components of G_0 that it may serve.
 template <int D>
 class ReferenceDivergence {
  public:
-    explicit ReferenceDivergence(const Mixture<D>& reference) {
-        if (reference.empty()) return;
-        const GoldbergerSearch<D> search(reference);
+    /// @param levels before any pass
+    ReferenceDivergence(const Mixture<D>& reference, const Agglomeration<D>& levels) {
         const double total = reference.totalSupport();
-        terms_.reserve(reference.size());
-        for (std::size_t i = 0; i < reference.size(); ++i) {
-            const Gaussian<D> g = reference[i];
+        std::vector<typename BoundTree<D>::Item> items;
+        for (std::uint32_t i = 0; i < reference.size(); ++i) {
             const double weight = reference.weight(i, total);
-            terms_.push_back({g, WhitenedGaussian<D>(g), weight, std::log(weight), {}});
-            search.improve(g, terms_[i].whitened, terms_[i].logWeight, terms_[i].best);
+            terms_.push_back({levels.part(i), weight, portable::log(weight), {}});
+            matchWith(levels, i, terms_[i]);
+            items.push_back(boundItem(terms_[i].part.gaussian, 0.0));
         }
+        tree_ = BoundTree<D>(std::move(items));
+        refitTree();
+        for (const std::uint32_t row : levels.rows()) offer(levels, row);
     }
 
     /// @param levels after a pass that merged some
     double to(const Agglomeration<D>& levels) {
-        const GoldbergerSearch<D> all(levels, levels.rows()), grown(levels, levels.grown());
-        double sum = 0;
         for (Term& t : terms_) {
-            t.best.component = levels.heirOf(t.best.component);
-            if (levels.hasGrown(t.best.component)) {
-                t.best.cost = std::numeric_limits<double>::infinity();
-                all.improve(t.gaussian, t.whitened, t.logWeight, t.best);
-            } else {
-                grown.improve(t.gaussian, t.whitened, t.logWeight, t.best);
-            }
-            sum += t.weight * t.best.cost;
+            const std::uint32_t row = levels.heirOf(t.best.component);
+            if (!levels.hasGrown(row)) continue;
+            const double former = t.best.cost;
+            matchWith(levels, row, t);
+            // Those that did not grow cost no less than the former counterpart.
+            if (t.best.cost > former) levels.improve(t.part, t.logWeight, t.best);
         }
+        refitTree();
+        for (const std::uint32_t row : levels.grown()) offer(levels, row);
+        double sum = 0;
+        for (const Term& t : terms_) sum += t.weight * t.best.cost;
         return sum;
     }
 
  private:
     struct Term {
-        Gaussian<D> gaussian;
-        WhitenedGaussian<D> whitened;
+        PreparedGaussian<D> part;
         double weight, logWeight;
-        typename GoldbergerSearch<D>::Match best;  ///< a row of the latest level
+        GoldbergerMatch best;  ///< a row of the latest level
     };
+
+    static void matchWith(const Agglomeration<D>& levels, std::uint32_t row, Term& t) {
+        t.best = {
+            goldbergerCost(t.part, t.logWeight, levels.part(row), levels.logWeight(row)),
+            row};
+    }
+    void refitTree() {
+        for (std::uint32_t i = 0; i < terms_.size(); ++i)
+            tree_.item(i).logWeight = terms_[i].best.cost - terms_[i].logWeight;
+        tree_.refit();
+    }
+    /// Makes a component of a level the counterpart of all that it serves better.
+    void offer(const Agglomeration<D>& levels, std::uint32_t row) {
+        const PreparedGaussian<D>& g = levels.part(row);
+        const double logWeight = levels.logWeight(row);
+        const auto own = boundItem(g.gaussian, logWeight);
+        const auto mayHold = [&](const typename BoundTree<D>::Node& node) {
+            return mayBeWithin<D>(
+                node.heaviest + logWeight, [&](int a) { return node.gap(own.mean, a); },
+                own.variance);
+        };
+        tree_.visit(own.mean, mayHold, [&](std::uint32_t i) {
+            Term& t = terms_[i];
+            const auto& mean = tree_.item(i).mean;
+            if (!mayBeWithin<D>(
+                    t.best.cost - t.logWeight + logWeight,
+                    [&](int a) { return mean[a] - own.mean[a]; }, own.variance))
+                return;
+            const double cost = goldbergerCost(t.part, t.logWeight, g, logWeight);
+            if (cost < t.best.cost) t.best = {cost, row};
+        });
+    }
+
     std::vector<Term> terms_;
+    BoundTree<D> tree_;  ///< of the reference; its logWeight is what a counterpart may cost
 };
 
 double raised(double similarity, double step) {
@@ -98,13 +135,13 @@ Mixture<D> mergeToSize(const Mixture<D>& mixture, std::size_t size,
 template <int D>
 Hierarchy<D> generateHierarchy(const Mixture<D>& reference, const HierarchyParams& params) {
     params.validate();
-    ReferenceDivergence<D> divergence(reference);
     Hierarchy<D> out;
     std::vector<Mixture<D>>& levels = out.levels;
     levels.push_back(reference);
     out.curve.push_back({reference.size(), 0.0, 0.0});
 
     Agglomeration<D> agglomeration(reference);
+    ReferenceDivergence<D> divergence(reference, agglomeration);
     double similarity = params.similarityStart;
     const auto pass = [&] {
         const bool smaller = agglomeration.pass(similarity);

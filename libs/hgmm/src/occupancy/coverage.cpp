@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/dual.h"
 #include "base/lattice_walk.h"
@@ -20,71 +19,23 @@ constexpr Coverage::Word kAllCells = CellBlocks::kAllCells;
 constexpr double kCellsPerSpacing = 2.0, kWidestGap_m = 0.5;
 /// Nearer to the sensor cells get no smaller [m].
 constexpr double kNearest_m = 0.5;
+/// Octaves begin half an octave below their edge.
+constexpr double kRoot2 = 1.4142135623730951;
 
 Coverage::Word bitOf(std::int32_t x, std::int32_t y, std::int32_t z) {
     const auto bit = (x & kInBlock) | (y & kInBlock) << 2 | (z & kInBlock) << 4;
     return Coverage::Word{1} << static_cast<unsigned>(bit);
 }
 
-Eigen::Vector3d centreOf(const LatticeCell& cell) {
-    return (Eigen::Vector3d(cell.x, cell.y, cell.z).array() + 0.5) *
-           powerOfTwo(cell.octave);
-}
-
-/// Calls visit(cell) for the cells of a block that a word has.
-template <typename Visitor>
-void forEachCell(const LatticeCell& block, Coverage::Word word, Visitor&& visit) {
-    for (; word != 0; word &= word - 1) {
-        const int bit = __builtin_ctzll(word);
-        visit(LatticeCell{block.octave, block.x * 4 + (bit & 3),
-                          block.y * 4 + (bit >> 2 & 3), block.z * 4 + (bit >> 4)});
-    }
-}
-
-/// A segment in units of a lattice's cells, by the share t of its length.
-class CellSegment {
- public:
-    CellSegment(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double perCell)
-        : from_(from * perCell),
-          along_((to - from) * perCell),
-          perUnit_(along_.cwiseInverse()) {}
-
-    /// The cells of a block that it passes between shares `in` and `out`, at which it
-    /// enters and leaves the block but for rounding.
-    Coverage::Word cellsPassed(const std::int32_t* block, double in, double out) const {
-        std::int32_t local[3], step[3];
-        double next[3];
-        for (int d = 0; d < 3; ++d) {
-            const double low = 4.0 * block[d], p = from_[d] + in * along_[d] - low;
-            local[d] = std::clamp(static_cast<std::int32_t>(p), 0, kInBlock);
-            step[d] = along_[d] < 0 ? -1 : 1;
-            const double border = low + local[d] + (step[d] > 0 ? 1 : 0);
-            next[d] = along_[d] == 0 ? kNever : (border - from_[d]) * perUnit_[d];
-        }
-        Coverage::Word passed = 0;
-        while (true) {
-            passed |= Coverage::Word{1}
-                      << static_cast<unsigned>(local[0] | local[1] << 2 | local[2] << 4);
-            int axis = next[1] < next[0] ? 1 : 0;
-            if (next[2] < next[axis]) axis = 2;
-            local[axis] += step[axis];
-            if (!(next[axis] < out) || (local[axis] & ~kInBlock) != 0) return passed;
-            next[axis] += std::abs(perUnit_[axis]);
-        }
-    }
-
- private:
-    static constexpr double kNever = std::numeric_limits<double>::infinity();
-    Eigen::Vector3d from_, along_, perUnit_;
-};
-
 }  // namespace
 
+void Coverage::note(int octave) {
+    const auto place = std::lower_bound(octaves_.begin(), octaves_.end(), octave);
+    if (place == octaves_.end() || *place != octave) octaves_.insert(place, octave);
+}
+
 void Coverage::mark(const LatticeCell& block, Word cells) {
-    if (cells == 0 || !blocks_.mark(block, cells)) return;
-    const auto place = std::lower_bound(octaves_.begin(), octaves_.end(), block.octave);
-    if (place == octaves_.end() || *place != block.octave)
-        octaves_.insert(place, block.octave);
+    if (cells != 0 && blocks_.mark(block, cells)) note(block.octave);
 }
 
 void Coverage::mark(const LatticeCell& cell) {
@@ -93,15 +44,16 @@ void Coverage::mark(const LatticeCell& cell) {
 
 void Coverage::markSegment(int octave, const Eigen::Vector3d& from,
                            const Eigen::Vector3d& to) {
-    const CellSegment segment(from, to, powerOfTwo(-octave));
-    const auto visit = [&](const std::int32_t* c, double in, double out) {
-        const LatticeCell block{octave, c[0], c[1], c[2]};
-        const Word known = word(block);
-        if (known == kAllCells) return;
-        const Word passed = segment.cellsPassed(c, in, out);
-        if ((passed & ~known) != 0) mark(block, passed);
+    LatticeCell groupCell = LatticeCellKeys::unused();
+    CellBlocks::Group* group = nullptr;
+    bool areNew = false;
+    const auto visit = [&](std::int32_t x, std::int32_t y, std::int32_t z, Word cells) {
+        const LatticeCell block{octave, x, y, z}, own = CellBlocks::blockOf(block);
+        if (!(own == groupCell)) group = &blocks_.groupToMark(groupCell = own);
+        areNew |= blocks_.mark(*group, CellBlocks::placeOf(block), cells);
     };
-    walkCells(from, to, powerOfTwo(-octave - kBlockShift), visit);
+    walkBlocks(from, to, powerOfTwo(-octave), visit);
+    if (areNew) note(octave);
 }
 
 Coverage::Rays::Rays(const CoverageParams& params, double raySpacing_rad,
@@ -114,11 +66,11 @@ Coverage::Rays::Rays(const CoverageParams& params, double raySpacing_rad,
 int Coverage::Rays::octaveAt(double w_m) const {
     const double edge = std::max(atOneMetre_m_ * std::sqrt(std::max(w_m, kNearest_m)),
                                  std::min(kWidestGap_m, perMetre_ * w_m));
-    return static_cast<int>(std::floor(std::log2(edge) + 0.5));
+    return octaveOf(kRoot2 * edge);
 }
 
 double Coverage::Rays::endOf(int octave) const {
-    const double edge = std::exp2(octave + 0.5), root = edge / atOneMetre_m_;
+    const double edge = kRoot2 * powerOfTwo(octave), root = edge / atOneMetre_m_;
     const double end = root * root;
     return edge < kWidestGap_m ? std::min(end, edge / perMetre_) : end;
 }
@@ -180,7 +132,7 @@ T Coverage::shareAt(const T* x) const {
         const unsigned marked = corners(low);
         if (marked == 0) continue;
         if (marked == kAllCorners) return 1.0;
-        const Eigen::Vector3d centre = centreOf(low);
+        const Eigen::Vector3d centre = low.centre();
         T share = 0.0, upper[3];
         for (int d = 0; d < 3; ++d) upper[d] = (x[d] - centre[d]) / edge;
         for (int k = 0; k < 8; ++k) {
@@ -202,13 +154,13 @@ void Coverage::merge(const Coverage& other, const Pose& T_local_other) {
     other.forEachBlock([&](const LatticeCell& block, Word word) {
         forEachCell(block, word, [&](const LatticeCell& cell) {
             const Eigen::Vector3d centre =
-                T_local_other.R * centreOf(cell) + T_local_other.t;
+                T_local_other.R * cell.centre() + T_local_other.t;
             const LatticeCell near = LatticeCell::at(centre, cell.octave);
             for (int k = 0; k < 27; ++k) {
                 const LatticeCell mine{cell.octave, near.x + k % 3 - 1,
                                        near.y + k / 3 % 3 - 1, near.z + k / 9 - 1};
                 const Eigen::Vector3d theirs =
-                    T_other_local.R * centreOf(mine) + T_other_local.t;
+                    T_other_local.R * mine.centre() + T_other_local.t;
                 if (LatticeCell::at(theirs, cell.octave) == cell) mark(mine);
             }
         });
@@ -252,7 +204,7 @@ Coverage Coverage::coarsened(int times) const {
 Coverage::Word Coverage::withoutCovered(const LatticeCell& block, Word word) const {
     Word kept = 0;
     forEachCell(block, word, [&](const LatticeCell& cell) {
-        const Eigen::Vector3d p = centreOf(cell);
+        const Eigen::Vector3d p = cell.centre();
         for (auto octave = octaves_.rbegin(); octave != octaves_.rend(); ++octave) {
             if (*octave <= cell.octave) break;
             const Eigen::Vector3d corner = p.array() - powerOfTwo(*octave) / 2;
@@ -286,7 +238,7 @@ void markRays(const Mixture<3>& samples, const ScanSamples& scan,
                               T_local_sensor.R * scan.normalOfRays_sensor);
     const Eigen::Vector3d& origin = T_local_sensor.t;
     for (std::size_t i = 0; i < samples.size(); ++i)
-        coverage.markRay(origin, samples[i].mean, true, rays);
+        coverage.markRay(origin, samples.meanAt(i), true, rays);
     for (const ClearedRay& ray : scan.clearedRays_sensor)
         coverage.markRay(origin,
                          origin + T_local_sensor.R *

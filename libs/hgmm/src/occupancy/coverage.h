@@ -63,6 +63,18 @@ class Coverage {
     /// marked if its centre lies in a marked one of the other.
     void merge(const Coverage& other, const Pose& T_local_other);
 
+    /// The cells of which keep(cell) holds.
+    template <typename Keep>
+    Coverage where(Keep&& keep) const {
+        Coverage kept;
+        forEachBlock([&](const LatticeCell& block, Word word) {
+            forEachCell(block, word, [&](const LatticeCell& cell) {
+                if (keep(cell)) kept.mark(cell);
+            });
+        });
+        return kept;
+    }
+
     /// Marks, in another one, the marked cells that at() looks at for points of a box.
     void copyAround(const Eigen::AlignedBox3d& box, Coverage& part) const;
 
@@ -82,6 +94,11 @@ class Coverage {
     }
     /// The cells of a block; none where there is no such block.
     Word word(const LatticeCell& block) const { return blocks_.word(block); }
+    /// The cells of 4 x 4 x 4 blocks, whose coordinates are those of the group times 4 and
+    /// more, until the next change.
+    CellBlocks::GroupView group(const LatticeCell& group) const {
+        return blocks_.group(group);
+    }
     /// Marks or unmarks cells of a block.
     void mark(const LatticeCell& block, Word cells);
     void mark(const LatticeCell& cell);
@@ -95,6 +112,8 @@ class Coverage {
     bool empty() const { return octaves_.empty(); }
 
  private:
+    /// A lattice holds cells.
+    void note(int octave);
     /// Which of the eight cells whose lowest is `low` are marked: bit dx + 2 dy + 4 dz.
     unsigned corners(const LatticeCell& low) const;
     /// The cells of a word of a block in which no coarser lattice says C = 1.

@@ -6,6 +6,7 @@
 
 #include "base/growth.h"
 #include "hgmm/params.h"
+#include "hgmm/portable_math.h"
 #include "mixture/regularized.h"
 
 namespace hgmm {
@@ -58,7 +59,7 @@ class ScanCells {
                 cellFor(bundle.mean + ray * (w / range), octaveOf(w), smallest);
             const double to = std::min(end, w + kSlabPerCell * powerOfTwo(cell.octave));
             Gaussian<4> slab = raySegmentMoments(bundle, sensorOrigin_, w, to);
-            slab.support = density * std::log(to / w);
+            slab.support = density * portable::log(to / w);
             slab.mean.head<3>() = rounded(slab.mean.head<3>());
             add(slab, LatticeCell::at(slab.mean.head<3>(), cell.octave));
             w = to;

@@ -34,7 +34,7 @@ void Openings::learn(const Coverage& passed, const Mixture<3>& hits,
     const std::vector<int> octaves = united(passed.octaves(), once_.octaves());
     Coverage onlyPassed = passed;
     for (std::size_t i = 0; i < hits.size(); ++i) {
-        const Eigen::Vector3d hit = hits[i].mean;
+        const Eigen::Vector3d hit = hits.meanAt(i);
         const double range_m = (hit - sensorOrigin).norm();
         const Eigen::Vector3d around = Eigen::Vector3d::Constant(
             std::max(powerOfTwo(octaveAt(range_m, rays)) / 2,
@@ -42,7 +42,10 @@ void Openings::learn(const Coverage& passed, const Mixture<3>& hits,
         for (const int octave : octaves) {
             const CellRange near(LatticeCell::at(hit - around, octave),
                                  LatticeCell::at(hit + around, octave));
-            near.forEachBlock([&](const LatticeCell& block) {
+            const auto isKnown = [&](const LatticeCell& group) {
+                return !passed.group(group).empty() || !once_.group(group).empty();
+            };
+            near.forEachBlock(isKnown, [&](const LatticeCell& block) {
                 const Coverage::Word now = passed.word(block);
                 if ((now | once_.word(block)) == 0) return;
                 const Coverage::Word cells = near.cellsIn(block);

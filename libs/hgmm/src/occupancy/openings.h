@@ -28,6 +28,11 @@ class Openings {
     /// @param hits where its rays end, in the frame of the surfaces
     void learn(const Coverage& passed, const Mixture<3>& hits,
                const Eigen::Vector3d& sensorOrigin, const Coverage::Rays& rays);
+    /// The cells of which keep(cell) holds.
+    template <typename Keep>
+    Openings where(Keep&& keep) const {
+        return {cells_.where(keep), once_.where(keep)};
+    }
     void merge(const Openings& other, const Pose& T_local_other) {
         cells_.merge(other.cells_, T_local_other);
         once_.merge(other.once_, T_local_other);

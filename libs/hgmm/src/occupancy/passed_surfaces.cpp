@@ -25,9 +25,15 @@ constexpr double kFeltSigmas = 4.0;
 /// The way of rays through one component.
 class Passage {
  public:
+    /// @param nearest_m range at which a ray may meet it
     Passage(const Gaussian<3>& component, const ComponentIndex::Factor& factor,
-            const Eigen::Vector3d& sensorOrigin, const Coverage::Rays& rays)
-        : component_(component), factor_(factor), origin_(sensorOrigin), rays_(rays) {}
+            const Eigen::Vector3d& sensorOrigin, double nearest_m,
+            const Coverage::Rays& rays)
+        : component_(component),
+          factor_(factor),
+          origin_(sensorOrigin),
+          nearest_m_(nearest_m),
+          rays_(rays) {}
 
     bool isOfSheet() {
         if (!hasPiece_) setPiece();
@@ -49,6 +55,8 @@ class Passage {
     void setPiece() {
         piece_ = pieceOf(component_, rays_.normal());
         height_m_ = piece_.normal.dot(Eigen::Vector3d(component_.mean) - origin_);
+        outwards_ = height_m_ < 0 ? -piece_.normal : piece_.normal;
+        leastClear_m_ = clearBehind(piece_.thickness_m, nearest_m_);
         isSheet_ = isSheet(piece_);
         hasPiece_ = true;
     }
@@ -77,6 +85,10 @@ class Passage {
 
     /// Distance at which it does.
     std::optional<double> goesThrough(const RayImage::Ray& ray) const {
+        // Most rays end on the piece.
+        if (ray.length_m * outwards_.dot(ray.direction) <
+            std::abs(height_m_) + leastClear_m_)
+            return std::nullopt;
         const double approach = piece_.normal.dot(ray.direction);
         const double range_m = height_m_ / approach;
         if (!(range_m > 0 && range_m < ray.length_m)) return std::nullopt;
@@ -93,11 +105,14 @@ class Passage {
     const Gaussian<3>& component_;
     const ComponentIndex::Factor& factor_;
     const Eigen::Vector3d& origin_;
+    double nearest_m_;
     const Coverage::Rays& rays_;
     bool hasPiece_ = false;  ///< the first ray makes it
     bool isSheet_ = false;
     Piece piece_;
-    double height_m_ = 0.0;  ///< of its mean over the sensor, along its normal
+    double height_m_ = 0.0;      ///< of its mean over the sensor, along its normal
+    Eigen::Vector3d outwards_;   ///< normal, away from the sensor
+    double leastClear_m_ = 0.0;  ///< what ends nearer behind it does not go through
 };
 
 }  // namespace
@@ -113,11 +128,18 @@ Coverage passedSurfaces(const Mixture<3>& surfaces, const ComponentIndex& index,
         const double range_m = towards.norm(),
                      extent_m = std::sqrt(kTileReach2 * component.covariance.trace());
         if (!(range_m > 0)) continue;
-        Passage passage(component, index.factor(i), image.origin(), rays);
-        const auto mark = [&](const RayImage::Ray& ray) { passage.mark(ray, passed); };
+        // A ray that goes through ends behind the nearest point of the tile.
+        const double along2 = towards.dot(component.covariance * towards),
+                     nearest_m =
+                         std::max(0.0, range_m - std::sqrt(kTileReach2 * along2) / range_m),
+                     least_m = nearest_m + clearBehind(0.0, nearest_m);
+        Passage passage(component, index.factor(i), image.origin(), nearest_m, rays);
+        const auto mark = [&](const RayImage::Ray& ray) {
+            if (ray.length_m >= least_m) passage.mark(ray, passed);
+        };
         if (extent_m < kWidest * range_m)
-            image.visitAround(towards / range_m, std::asin(extent_m / range_m),
-                              range_m - extent_m, mark);
+            image.visitAround(towards / range_m, RayImage::Cone::ofSine(extent_m / range_m),
+                              least_m, mark);
         else if (passage.isOfSheet())
             image.visitAll(mark);
     }

@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "index/component_index.h"
+#include "index/within.h"
 
 namespace hgmm {
 
@@ -23,21 +23,16 @@ Neighbourhoods findNeighbourhoods(const Mixture<3>& samples, const Mixture<3>& m
                                   const std::vector<std::uint32_t>& own) {
     ComponentIndex index(kNeighbourSigmas);
     index.rebuild(mixture);
-    Neighbourhoods result;
-    result.begin.push_back(0);
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        const float p[3] = {samples.mean[0][i], samples.mean[1][i], samples.mean[2][i]};
-        const auto first = static_cast<std::ptrdiff_t>(result.component.size());
-        result.component.push_back(own[i]);
-        index.visitCandidates(p[0], p[1], p[2], [&](std::uint32_t j) {
-            if (j != own[i] &&
-                index.factor(j).isWithin(p, kNeighbourSigmas * kNeighbourSigmas))
-                result.component.push_back(j);
-        });
-        std::sort(result.component.begin() + first, result.component.end());
-        result.begin.push_back(static_cast<std::uint32_t>(result.component.size()));
-    }
-    return result;
+    const CellOrder order =
+        orderedByCells(samples.mean[0].data(), samples.mean[1].data(),
+                       samples.mean[2].data(), samples.size(), index.smallestOctave());
+    std::vector<Match> matches;
+    for (std::uint32_t i = 0; i < samples.size(); ++i) matches.push_back({i, own[i]});
+    visitWithin(index, order, 0, order.size(), kNeighbourSigmas * kNeighbourSigmas,
+                [&](std::size_t k, std::uint32_t j) {
+                    if (j != own[order.index[k]]) matches.push_back({order.index[k], j});
+                });
+    return neighbourhoodsOf(matches, samples.size());
 }
 
 }  // namespace

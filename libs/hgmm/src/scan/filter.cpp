@@ -1,6 +1,8 @@
 #include "hgmm/scan.h"
 
 #include <algorithm>
+#include <array>
+#include <vector>
 
 #include "base/simd.h"
 #include "hgmm/params.h"
@@ -10,40 +12,102 @@ namespace hgmm {
 
 namespace {
 
-/// Moments of the points of one leaf.
-struct Sums {
-    Double2 xy{};                       ///< sums of dx, dy [m]
-    Double2 zn{};                       ///< sum of dz [m], count
-    Double2 xx_xy{}, yy_yz{}, zz_xz{};  ///< sums of products [m^2]
+/// Sums over points d = (dx, dy, dz, 1) about an anchor [m].
+struct FloatSums {
+    Float4 x{}, y{}, z{};  ///< dx d, dy d, dz d
+    std::int32_t count = 0;
 
-    void add(double dx, double dy, double dz) {
-        xy += Double2{dx, dy};
-        zn += Double2{dz, 1.0};
-        xx_xy += Double2{dx, dy} * dx;
-        yy_yz += Double2{dy, dz} * dy;
-        zz_xz += Double2{dz, dx} * dz;
+    void add(Float4 d) {
+        x += d[0] * d;
+        y += d[1] * d;
+        z += d[2] * d;
+        ++count;
     }
-    double count() const { return zn[1]; }
-    Eigen::Vector3d sum() const { return {xy[0], xy[1], zn[0]}; }
-    Eigen::Matrix3d sumOuter() const {
-        Eigen::Matrix3d m;
-        m << xx_xy[0], xx_xy[1], zz_xz[1],  //
-            xx_xy[1], yy_yz[0], yy_yz[1],   //
-            zz_xz[1], yy_yz[1], zz_xz[0];
-        return m;
+    /// Adds four points.
+    void add(Float4 dx, Float4 dy, Float4 dz) {
+        const Float4 xy = dx * dy, xz = dx * dz, yz = dy * dz;
+        x += sumsOfLanes(dx * dx, xy, xz, dx);
+        y += sumsOfLanes(xy, dy * dy, yz, dy);
+        z += sumsOfLanes(xz, yz, dz * dz, dz);
+        count += 4;
     }
 };
 
+/// The same of any number of points: floats keep their digits over some of them.
+struct Sums {
+    static constexpr std::int32_t kFloats = 1024;
+    FloatSums last;
+    std::array<double, 10> former{};  ///< count, dx, dy, dz, dx dx, dx dy, ... dz dz
+
+    std::array<double, 10> total() const {
+        const Float4 &x = last.x, &y = last.y, &z = last.z;
+        std::array<double, 10> sum{
+            double(last.count), x[3], y[3], z[3], x[0], x[1], x[2], y[1], y[2], z[2]};
+        for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += former[k];
+        return sum;
+    }
+    void settle() {
+        former = total();
+        last = FloatSums();
+    }
+};
+
+/// The leaves of the points that are in range, in order of first appearance.
+class LeafSums {
+ public:
+    explicit LeafSums(std::size_t points) : table_(points) {}
+
+    void add(const Leaves4& leaves, Float4 x, Float4 y, Float4 z) {
+        // Neighbouring points mostly share a leaf: its sums are held until another's turn.
+        const unsigned used = bitsOf(leaves.isInRange);
+        unsigned mine = bitsOf(leaves.areIn(current_));
+        if ((used & mine) == 15U)
+            sums_.add(x - anchor_[0], y - anchor_[1], z - anchor_[2]);
+        else
+            for (unsigned left = used; left != 0; left &= left - 1) {
+                const auto k = static_cast<unsigned>(__builtin_ctz(left));
+                if ((mine >> k & 1U) == 0) {
+                    enter(leaves, k, x[k], y[k], z[k]);
+                    mine = bitsOf(leaves.areIn(current_));
+                }
+                sums_.add(Float4{x[k], y[k], z[k], 1.F} - anchor_);
+            }
+        if (sums_.count >= Sums::kFloats)
+            flush(), leaf_->sums.settle(), sums_ = FloatSums();
+    }
+    const std::vector<Leaf<Sums>>& leaves() {
+        flush();
+        return table_.leaves();
+    }
+
+ private:
+    void enter(const Leaves4& leaves, unsigned k, float x, float y, float z) {
+        flush();
+        current_ = leaves.lane(k);
+        leaf_ = &table_.find(leaves.key(k), x, y, z);
+        anchor_ = Float4{leaf_->anchor[0], leaf_->anchor[1], leaf_->anchor[2], 0.F};
+        sums_ = leaf_->sums.last;
+    }
+    void flush() {
+        if (leaf_ != nullptr) leaf_->sums.last = sums_;
+    }
+
+    VoxelTable<Sums> table_;
+    Leaves4 current_{{}, Int4{} - 1000, {}, {}, {}};  ///< no leaf has this octave
+    Leaf<Sums>* leaf_ = nullptr;                      ///< of the current points
+    Float4 anchor_{};
+    FloatSums sums_;
+};
+
 Gaussian<3> sampleOf(const Leaf<Sums>& leaf, const FilterParams& params) {
-    const Sums& sums = leaf.sums;
+    const std::array<double, 10> v = leaf.sums.total();
     Gaussian<3> g;
-    g.support = sums.count();
-    const Eigen::Vector3d offset = sums.sum() / sums.count();
-    const Eigen::Matrix3d outer = sums.sumOuter();
-    for (int row = 0; row < 3; ++row)
-        for (int col = row; col < 3; ++col)
+    g.support = v[0];
+    const Eigen::Vector3d offset(v[1] / v[0], v[2] / v[0], v[3] / v[0]);
+    for (int row = 0, k = 4; row < 3; ++row)
+        for (int col = row; col < 3; ++col, ++k)
             g.covariance(row, col) = g.covariance(col, row) =
-                outer(row, col) / sums.count() - offset[row] * offset[col];
+                v[k] / v[0] - offset[row] * offset[col];
     for (int d = 0; d < 3; ++d) g.mean[d] = leaf.anchor[d] + offset[d];
     const double noise = params.noiseAt(g.mean.norm());
     for (int d = 0; d < 3; ++d)
@@ -55,12 +119,28 @@ Gaussian<3> sampleOf(const Leaf<Sums>& leaf, const FilterParams& params) {
 
 Mixture<3> filterScan(const Scan& scan, const FilterParams& params, FilterCounts* counts) {
     FilterCounts counted;
-    const auto table = sumLeaves<Sums>(scan, params, counted,
-                                       [](Sums& sums, std::size_t, double dx, double dy,
-                                          double dz) { sums.add(dx, dy, dz); });
+    const LeafKeys keysOf(params);
+    LeafSums sums(scan.size());
+    for (std::size_t i = 0; i < scan.size(); i += 4) {
+        const std::size_t count = std::min<std::size_t>(4, scan.size() - i);
+        const Float4 x = loadUpTo4(&scan.x[i], count), y = loadUpTo4(&scan.y[i], count),
+                     z = loadUpTo4(&scan.z[i], count);
+        const Leaves4 leaves = keysOf.leavesOf(x, y, z);
+        const unsigned used = bitsOf(leaves.isInRange);
+        if (used == 15U) {
+            counted.used += 4;
+        } else {
+            for (std::size_t k = 0; k < count; ++k)
+                if ((used >> k & 1U) != 0)
+                    ++counted.used;
+                else
+                    countDropped({x[k], y[k], z[k]}, keysOf.maxRange2(), counted);
+        }
+        sums.add(leaves, x, y, z);
+    }
     Mixture<3> samples;
-    samples.reserve(table.leaves().size());
-    for (const Leaf<Sums>& filled : table.leaves())
+    samples.reserve(sums.leaves().size());
+    for (const Leaf<Sums>& filled : sums.leaves())
         samples.pushBack(sampleOf(filled, params));
     if (counts != nullptr) *counts = counted;
     return samples;

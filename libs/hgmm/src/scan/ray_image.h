@@ -12,6 +12,20 @@ namespace hgmm {
 /// The rays of one scan by direction, in bins on the faces of a cube around the sensor.
 class RayImage {
  public:
+    /// Half the angle at the tip of a cone, up to 0.6 rad, without functions of angles,
+    /// whose last bits change with the processor.
+    struct Cone {
+        double sine, cosine;
+
+        static Cone ofSine(double sine) { return {sine, std::sqrt(1 - sine * sine)}; }
+        /// Of at most 0.5 rad.
+        static Cone ofTangent(double tangent) {
+            const double t = std::min(tangent, 0.5463024898437905),
+                         cosine = 1 / std::sqrt(1 + t * t);
+            return {t * cosine, cosine};
+        }
+    };
+
     struct Ray {
         Eigen::Vector3d direction;  ///< unit vector
         double length_m;            ///< > 0
@@ -28,17 +42,17 @@ class RayImage {
     /// Length of the longest ray [m]; 0 without any.
     double longest_m() const { return longest_m_; }
 
-    /// Whether isWanted(ray) holds of one of the rays of all bins that reach within an
-    /// angle, up to 0.6 rad, of a direction and hold a ray of at least `length_m`. They are
-    /// asked in a fixed order, up to the first of which it holds.
+    /// Whether isWanted(ray) holds of one of the rays of all bins that reach into a cone
+    /// about a direction and hold a ray of at least `length_m`. They are asked in a fixed
+    /// order, up to the first of which it holds.
     template <typename Predicate>
-    bool anyAround(const Eigen::Vector3d& direction, double angle_rad, double length_m,
+    bool anyAround(const Eigen::Vector3d& direction, const Cone& cone, double length_m,
                    Predicate&& isWanted) const;
     /// Calls visit(ray) for all of them.
     template <typename Visitor>
-    void visitAround(const Eigen::Vector3d& direction, double angle_rad, double length_m,
+    void visitAround(const Eigen::Vector3d& direction, const Cone& cone, double length_m,
                      Visitor&& visit) const {
-        anyAround(direction, angle_rad, length_m, [&](const Ray& ray) {
+        anyAround(direction, cone, length_m, [&](const Ray& ray) {
             visit(ray);
             return false;
         });
@@ -74,16 +88,19 @@ class RayImage {
 };
 
 template <typename Predicate>
-bool RayImage::anyAround(const Eigen::Vector3d& direction, double angle_rad,
+bool RayImage::anyAround(const Eigen::Vector3d& direction, const Cone& cone,
                          double length_m, Predicate&& isWanted) const {
+    // Rays of a face are within 0.956 rad of its axis: cosine and sine.
+    constexpr double kFaceCosine = 0.5769, kFaceSine = 0.8169;
+    const double least = std::max(0.0, kFaceCosine * cone.cosine - kFaceSine * cone.sine);
     for (int face = 0; face < 6; ++face) {
         const int axis = face / 2;
         const double depth = (face % 2 == 0 ? 1 : -1) * direction[axis];
-        // Rays of a face are within 0.956 rad of its axis. Seen from it, the cone reaches
-        // to tan(theta + angle), theta being that of its own axis.
-        if (!(depth > std::max(0.0, std::cos(0.956 + angle_rad)))) continue;
-        const double sine = std::sin(angle_rad),
-                     end = depth * std::cos(angle_rad) -
+        // Seen from a face, the cone reaches to tan(theta + angle), theta being that of its
+        // own axis.
+        if (!(depth > least)) continue;
+        const double sine = cone.sine,
+                     end = depth * cone.cosine -
                            std::sqrt(std::max(0.0, 1 - depth * depth)) * sine;
         const double u = direction[(axis + 1) % 3] / depth,
                      v = direction[(axis + 2) % 3] / depth,

@@ -25,9 +25,10 @@ DirectionBin binOf(const Eigen::Vector3d& ray) {
     };
     const int face = 2 * axis + (ray[axis] < 0 ? 1 : 0);
     const int row = bin(ray[(axis + 1) % 3]), col = bin(ray[(axis + 2) % 3]);
-    const double a = (row + 0.5) * kBinEdge - 1, b = (col + 0.5) * kBinEdge - 1;
+    const double a = (row + 0.5) * kBinEdge - 1, b = (col + 0.5) * kBinEdge - 1,
+                 distance2 = 1 + a * a + b * b;
     return {static_cast<std::size_t>((face * kBins + row) * kBins + col),
-            kBinEdge * kBinEdge / std::pow(1 + a * a + b * b, 1.5)};
+            kBinEdge * kBinEdge / (distance2 * std::sqrt(distance2))};
 }
 
 }  // namespace

@@ -127,7 +127,6 @@ Bridge bridge(const Content& own, const Content& around) {
 struct Crossing {
     bool isBeside = false;  ///< beside the line, rather than its ends
     double sigmas2 = 0.0;   ///< squared distance from the line [sigma of the bridge]
-    double behind_m = 0.0;  ///< how far behind the plane the ray ends; before it: negative
 };
 
 class BridgedPlane {
@@ -136,9 +135,15 @@ class BridgedPlane {
         : bridge_(bridge),
           mean_(mean),
           variance_(bridge.wider.trace()),
-          offset_(bridge.normal.dot(mean)) {}
+          offset_(bridge.normal.dot(mean)),
+          outwards_(offset_ < 0 ? -bridge.normal : bridge.normal) {}
 
     double sigma_m() const { return std::sqrt(variance_); }
+
+    /// How far behind the plane a ray ends; before it: negative.
+    double behind_m(const RayImage::Ray& ray) const {
+        return ray.length_m * outwards_.dot(ray.direction) - std::abs(offset_);
+    }
 
     Crossing at(const RayImage::Ray& ray) const {
         const double towards = bridge_.normal.dot(ray.direction), t = offset_ / towards;
@@ -146,14 +151,14 @@ class BridgedPlane {
         const Eigen::Vector3d beside = t * ray.direction - mean_;
         if (std::abs(bridge_.line.dot(beside)) > bridge_.halfLength_m) return {};
         // The covariance of a bridge is degenerate.
-        return {true, beside.dot(bridge_.wider * beside) / (variance_ * variance_),
-                (ray.length_m - t) * std::abs(towards)};
+        return {true, beside.dot(bridge_.wider * beside) / (variance_ * variance_)};
     }
 
  private:
     const Bridge& bridge_;
     const Eigen::Vector3d& mean_;
     double variance_, offset_;
+    Eigen::Vector3d outwards_;  ///< normal, away from the sensor
 };
 
 /// Whether rays between the line of a bridge and the next end behind its plane, and few on
@@ -166,31 +171,33 @@ bool isCrossed(const Bridge& bridge, const Content& own, double edge_m,
     if (!(range > 0)) return false;
     const Eigen::Vector3d u = mean / range;
     const BridgedPlane plane(bridge, mean);
-    const auto crosses = [&](const Crossing& c) {
-        return c.isBeside && c.behind_m >= kBehind * edge_m &&
-               c.sigmas2 < kBetweenLines * kBetweenLines &&
+    const auto isWithin = [](const Crossing& c, double sigmas) {
+        return c.isBeside && c.sigmas2 <= sigmas * sigmas &&
                c.sigmas2 >= kOwnLine * kOwnLine;
     };
-    const auto angleTo = [&](double sigmas) {
-        return std::min(
-            std::atan(std::hypot(sigmas * plane.sigma_m(), bridge.halfLength_m) / range),
-            0.5);
+    // Most rays end on the plane.
+    const auto crosses = [&](const RayImage::Ray& ray) {
+        return plane.behind_m(ray) >= kBehind * edge_m &&
+               isWithin(plane.at(ray), kBetweenLines);
+    };
+    const auto endsOn = [&](const RayImage::Ray& ray) {
+        return std::abs(plane.behind_m(ray)) < kBehind * edge_m &&
+               isWithin(plane.at(ray), kNextLines);
+    };
+    const auto coneOf = [&](double sigmas) {
+        const double across_m = sigmas * plane.sigma_m(), along_m = bridge.halfLength_m;
+        return RayImage::Cone::ofTangent(
+            std::sqrt(across_m * across_m + along_m * along_m) / range);
     };
     // Most planes are surfaces. Few rays are long enough to cross them.
     const double nearest = range - kBetweenLines * std::sqrt(u.dot(bridge.wider * u)) -
                            std::abs(bridge.line.dot(u)) * bridge.halfLength_m;
-    if (!rays.anyAround(u, angleTo(kBetweenLines), nearest + kBehind * edge_m,
-                        [&](const RayImage::Ray& ray) { return crosses(plane.at(ray)); }))
+    if (!rays.anyAround(u, coneOf(kBetweenLines), nearest + kBehind * edge_m, crosses))
         return false;
     int crossing = 0, ending = 0;
-    rays.visitAround(u, angleTo(kNextLines), 0.0, [&](const RayImage::Ray& ray) {
-        const Crossing c = plane.at(ray);
-        crossing += crosses(c) ? 1 : 0;
-        ending += c.isBeside && std::abs(c.behind_m) < kBehind * edge_m &&
-                          c.sigmas2 <= kNextLines * kNextLines &&
-                          c.sigmas2 >= kOwnLine * kOwnLine
-                      ? 1
-                      : 0;
+    rays.visitAround(u, coneOf(kNextLines), 0.0, [&](const RayImage::Ray& ray) {
+        crossing += crosses(ray) ? 1 : 0;
+        ending += endsOn(ray) ? 1 : 0;
     });
     return crossing > kCrossings * ending;
 }
@@ -199,6 +206,7 @@ bool isCrossed(const Bridge& bridge, const Content& own, double edge_m,
 std::array<Contents, kGapDoublings + 1> contentsOf(const Mixture<3>& samples,
                                                    const std::vector<LatticeCell>& cells) {
     std::array<Contents, kGapDoublings + 1> contents;
+    contents[0].reserve(samples.size() / 2);
     for (std::size_t i = 0; i < samples.size(); ++i)
         contents[0]
             .tryEmplace(cells[i], {})

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <utility>
 #include <vector>
 
-#include "base/simd.h"
 #include "hgmm/scan.h"
+#include "scan/leaf_keys.h"
 
 namespace hgmm {
 
@@ -73,78 +72,18 @@ class VoxelTable {
     std::vector<Leaf<Sums>> leaves_;
 };
 
-/// The leaves of points: an octave by the range, and indices in its lattice.
-class LeafKeys {
- public:
-    /// No leaf has this key: that of a point out of range.
-    static constexpr std::uint64_t kDropped = ~std::uint64_t{0};
-
-    explicit LeafKeys(const FilterParams& params)
-        : resolution4_(fourthPower(params.resolution_m)),
-          minLeaf4_(fourthPower(params.minLeaf_m)),
-          minRange2_(static_cast<float>(params.minRange_m * params.minRange_m)),
-          maxRange2_(static_cast<float>(params.maxRange_m * params.maxRange_m)) {}
-
-    float maxRange2() const { return maxRange2_; }  ///< [m^2]
-
-    /// Of a point at any range.
-    std::uint64_t atAnyRange(float x, float y, float z) const {
-        const Float4 ones = 1.F + Float4{};
-        const Float4 range2 = (x * x + y * y + z * z) * ones;
-        return packed(octaveAt(range2), x * ones, y * ones, z * ones, 0);
-    }
-
-    /// Of four points.
-    void of(Float4 x, Float4 y, Float4 z, std::uint64_t* keys) const {
-        const Float4 range2 = x * x + y * y + z * z;
-        const Int4 isInRange =
-            (range2 >= minRange2_) & (range2 <= maxRange2_) & (range2 != 0.F);
-        const Int4 octave = octaveAt(range2);
-        for (int k = 0; k < 4; ++k)
-            keys[k] = isInRange[k] == 0 ? kDropped : packed(octave, x, y, z, k);
-    }
-
- private:
-    // 19 bits an axis hold any leaf index, at the smallest leaves and 100 km.
-    static constexpr unsigned kIndexBits = 19;
-    static constexpr std::int32_t kMask = (1 << kIndexBits) - 1;
-    /// Of the edge of leaves at a squared range.
-    Int4 octaveAt(Float4 range2) const {
-        // An edge of c sqrt(r) has the octave of its fourth power c^4 r^2, divided by four.
-        const Float4 edge4 = resolution4_ * range2;
-        const Int4 isLarger = edge4 > minLeaf4_;
-        const Float4 least = minLeaf4_ + Float4{};
-        const Int4 bits = (isLarger & (Int4)edge4) | (~isLarger & (Int4)least);
-        return ((bits >> 23) - 127) >> 2;
-    }
-    /// The key of point k of four.
-    static std::uint64_t packed(Int4 octave, Float4 x, Float4 y, Float4 z, int k) {
-        const auto perLeaf = (Float4)((127 - octave) << 23);
-        const Int4 ix = floorToInt(x * perLeaf) & kMask,
-                   iy = floorToInt(y * perLeaf) & kMask,
-                   iz = floorToInt(z * perLeaf) & kMask;
-        return static_cast<std::uint64_t>(octave[k] + 32) << (3 * kIndexBits) |
-               std::uint64_t(ix[k]) << (2 * kIndexBits) |
-               std::uint64_t(iy[k]) << kIndexBits | std::uint64_t(iz[k]);
-    }
-    static float fourthPower(double v) { return static_cast<float>(v * v * v * v); }
-
-    float resolution4_, minLeaf4_;  // [m^4]
-    float minRange2_, maxRange2_;   // [m^2]
-};
-
 /// Keys of the points from `begin` on, at most kPointsPerChunk. Returns how many.
 constexpr std::size_t kPointsPerChunk = 64;
 inline std::size_t keysFrom(const Scan& scan, std::size_t begin, const LeafKeys& keys,
                             std::uint64_t* out) {
     const std::size_t count = std::min(kPointsPerChunk, scan.size() - begin);
     for (std::size_t k = 0; k < count; k += 4) {
-        Float4 p[3] = {};
-        const std::size_t bytes = std::min<std::size_t>(4, count - k) * sizeof(float);
-        std::memcpy(&p[0], &scan.x[begin + k], bytes);
-        std::memcpy(&p[1], &scan.y[begin + k], bytes);
-        std::memcpy(&p[2], &scan.z[begin + k], bytes);
-        keys.of(p[0], p[1], p[2], out + k);
+        const Leaves4 leaves = keys.leavesOf(loadUpTo4(&scan.x[begin + k], count - k),
+                                             loadUpTo4(&scan.y[begin + k], count - k),
+                                             loadUpTo4(&scan.z[begin + k], count - k));
+        for (unsigned lane = 0; lane < 4; ++lane)
+            out[k + lane] =
+                leaves.isInRange[lane] == 0 ? LeafKeys::kDropped : leaves.key(lane);
     }
     return count;
 }
