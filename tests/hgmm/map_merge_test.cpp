@@ -76,6 +76,34 @@ void expectAgreement(const Map& a, const Map& b) {
     EXPECT_NEAR(agreed.meanLogDensityGap, 0.0, 0.1);
 }
 
+/// A door that one map saw open, and another one shut: what was hit stays.
+TEST(MapMerge, KeepsADoorThatTheOtherMapSawShut) {
+    const Box leftOfDoor{Eigen::Vector3d(2.0, -3.0, 0.0), Eigen::Vector3d(2.1, -0.5, 2.2)};
+    const Box rightOfDoor{Eigen::Vector3d(2.0, 0.5, 0.0), Eigen::Vector3d(2.1, 3.0, 2.2)};
+    const Box shut{Eigen::Vector3d(2.0, -3.0, 0.0), Eigen::Vector3d(2.1, 3.0, 2.2)};
+    RoomScanner open = roomWith(leftOfDoor);
+    open.furniture.push_back(rightOfDoor);
+    std::vector<Eigen::Vector3d> door;
+    for (double y = -0.3; y <= 0.3; y += 0.05)
+        for (double z = 0.4; z <= 1.6; z += 0.1) door.emplace_back(2.0, y, z);
+    const auto occupiedShare = [&](const Map& map) {
+        double occupied = 0;
+        for (const Eigen::Vector3d& p : door) occupied += map.occupancy(p).occupied > 0.5F;
+        return occupied / double(door.size());
+    };
+    const Map closed = mapOf(roomWith(shut), 15);
+    Map opened = closed;
+    for (int k = 0; k < 6; ++k)
+        opened.insert(open.scan(walk(15 + k), 500 + static_cast<std::uint64_t>(k)));
+    EXPECT_GT(occupiedShare(closed), 0.9);
+    EXPECT_LT(occupiedShare(opened), 0.2);
+    Map either = opened, other = closed;
+    either.merge(closed);
+    other.merge(opened);
+    EXPECT_GT(occupiedShare(either), 0.9);
+    EXPECT_GT(occupiedShare(other), 0.9);
+}
+
 }  // namespace
 
 TEST(MapMerge, PartsOfAWalkAnswerAsTheWholeDoes) {

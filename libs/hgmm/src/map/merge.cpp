@@ -100,6 +100,28 @@ void requireWithinBounds(const Model& from, const Eigen::Vector3d& origin_this,
             "map's origin");
 }
 
+/// Openings where another map does not say that a point is rather occupied: a ray may have
+/// ended there since, or before. In one map it would have shut them.
+Openings notContradicted(const Openings& openings, const QueryCache& other,
+                         const Pose& T_other_this) {
+    if (openings.empty()) return openings;
+    const OccupancyModel& answers = other.occupancy(0);
+    const auto isOccupied = [&](const Eigen::Vector3d& point) {
+        return answers.at(T_other_this.R * point + T_other_this.t).occupied > 0.5F;
+    };
+    return openings.where([&](const LatticeCell& cell) {
+        // Surfaces are about as thick as cells are wide.
+        const double quarter_m = powerOfTwo(cell.octave) / 4;
+        const Eigen::Vector3d centre = cell.centre();
+        bool isHit = isOccupied(centre);
+        for (int k = 0; k < 8 && !isHit; ++k)
+            isHit = isOccupied(centre + quarter_m * Eigen::Vector3d((k & 1) != 0 ? 1 : -1,
+                                                                    (k & 2) != 0 ? 1 : -1,
+                                                                    (k & 4) != 0 ? 1 : -1));
+        return !isHit;
+    });
+}
+
 }  // namespace
 
 void Map::merge(const Map& other, const Pose& T_this_other) {
@@ -115,6 +137,10 @@ void Map::merge(const Map& other, const Pose& T_this_other) {
     requireWithinBounds(from, otherOrigin_this, T_local_other);
     model.origin = origin;
 
+    const Openings theirs = notContradicted(from.openings, state_->cache, T_local_other);
+    model.openings =
+        notContradicted(model.openings, other.state_->cache, T_local_other.inverse());
+    model.openings.merge(theirs, T_local_other);
     const std::size_t candidates = model.components.size();
     for (std::size_t i = 0; i < from.components.size(); ++i)
         mergeSurface(moved(from.components.surfaces()[i], T_local_other),
@@ -125,7 +151,6 @@ void Map::merge(const Map& other, const Pose& T_this_other) {
         updatedFree.push_back(model.freeSpace.merge(
             moved(from.freeSpace.mixture()[i], T_local_other), from.freeSpace.octave(i)));
     model.coverage.merge(from.coverage, T_local_other);
-    model.openings.merge(from.openings, T_local_other);
     std::sort(updatedFree.begin(), updatedFree.end());
     updatedFree.erase(std::unique(updatedFree.begin(), updatedFree.end()),
                       updatedFree.end());
