@@ -16,6 +16,8 @@ packages=(
     pybind11-dev python3-dev python3-numpy python3-pytest
     python3-setuptools python3-wheel python3-build python3-matplotlib
     libjs-three python3-distributed
+    # the planner's example
+    libompl-dev
     # tests
     libgtest-dev libbenchmark-dev clang-format pkg-config
     # stock MRPT apps and their data, used by the tests and the demo
