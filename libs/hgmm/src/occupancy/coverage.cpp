@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::int32_t kInBlock = (1 << Coverage::kBlockShift) - 1;
 constexpr unsigned kAllCorners = 255;
-constexpr Coverage::Word kAllCells = CellBlocks::kAllCells;
 
 /// Cells are at least this many spacings of rays wide, so that a sparse sensor leaves no
 /// gaps, but for its sake no wider than the gap that is bridged: things hide in wider ones.
