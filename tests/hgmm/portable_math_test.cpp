@@ -1,4 +1,4 @@
-#include "hgmm/portable_math.h"
+#include "base/portable_math.h"
 
 #include <gtest/gtest.h>
 

@@ -152,7 +152,8 @@ void studyHall(double limit_m, NoReturn noReturn, std::uint64_t seed,
         const auto isOccupied = [](const hgmm::Occupancy& o) { return o.occupied > 0.5F; };
         const double free = shareOf(passed, isFree), occupied = shareOf(passed, isOccupied);
         table.add({format("%g", limit_m), nameOf(noReturn), name},
-                  {free, occupied, 1.0 - free - occupied, shareOf(ends, isOccupied)});
+                  {free, occupied, std::max(0.0, 1.0 - free - occupied),
+                   shareOf(ends, isOccupied)});
     };
     for (const auto& map : maps) report(map->name(), *map);
     for (const Grid2d& grid : grids) report(grid.name(), grid);

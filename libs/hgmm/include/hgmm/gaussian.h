@@ -2,8 +2,8 @@
 #include <array>
 #include <cmath>
 
+#include "hgmm/export.h"
 #include "hgmm/mixture.h"
-#include "hgmm/portable_math.h"
 
 namespace hgmm {
 
@@ -19,7 +19,8 @@ class WhitenedGaussian {
 
     /// Factors a covariance. One that is not positive definite (rounding, or degenerate
     /// input) has its pivots raised to `minVariance`, so that the result is always finite.
-    explicit WhitenedGaussian(const Gaussian<D>& g, double minVariance = 1e-12);
+    /// The library has it for D = 1 to 4, and for D = 3 in floats.
+    HGMM_EXPORT explicit WhitenedGaussian(const Gaussian<D>& g, double minVariance = 1e-12);
 
     /// (x - mu)^T Sigma^-1 (x - mu), >= 0.
     Scalar squaredMahalanobis(const Scalar* x) const {
@@ -80,35 +81,6 @@ class WhitenedGaussian {
     std::array<Scalar, packedSize(D)> factor_{};
     Scalar logNormalizer_ = 0;
 };
-
-template <int D, typename Scalar>
-WhitenedGaussian<D, Scalar>::WhitenedGaussian(const Gaussian<D>& g, double minVariance) {
-    double L[D][D] = {};
-    double logDet = 0;
-    for (int i = 0; i < D; ++i) {
-        for (int j = 0; j <= i; ++j) {
-            double s = g.covariance(i, j);
-            for (int k = 0; k < j; ++k) s -= L[i][k] * L[j][k];
-            if (i == j) {
-                L[i][i] = std::sqrt(s > minVariance ? s : minVariance);
-                logDet += 2.0 * portable::log(L[i][i]);
-            } else {
-                L[i][j] = s / L[j][j];
-            }
-        }
-    }
-    for (int col = 0; col < D; ++col) {
-        double column[D] = {};
-        for (int row = col; row < D; ++row) {
-            double s = row == col ? 1.0 : 0.0;
-            for (int k = col; k < row; ++k) s -= L[row][k] * column[k];
-            column[row] = s / L[row][row];
-            factor_[lower(row, col)] = static_cast<Scalar>(column[row]);
-        }
-    }
-    for (int i = 0; i < D; ++i) mean_[i] = static_cast<Scalar>(g.mean[i]);
-    logNormalizer_ = static_cast<Scalar>(-0.5 * (D * kLogTwoPi + logDet));
-}
 
 /// log(exp(a) + exp(b)) without overflow; -infinity stands for zero.
 inline double logAddExp(double a, double b) {

@@ -76,8 +76,8 @@ class Mixture {
     Gaussian<D> operator[](std::size_t i) const;
 
     /// Mean of component i < size().
-    Eigen::Matrix<double, D, 1> meanAt(std::size_t i) const {
-        Eigen::Matrix<double, D, 1> m;
+    typename Gaussian<D>::Vector meanAt(std::size_t i) const {
+        typename Gaussian<D>::Vector m;
         for (int d = 0; d < D; ++d) m[d] = mean[d][i];
         return m;
     }

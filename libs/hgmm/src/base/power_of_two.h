@@ -2,24 +2,31 @@
 #include <cstdint>
 #include <cstring>
 
-#include "hgmm/portable_math.h"
-
 /// Powers of two from the bits of a number, and floors by casts: std::ilogb, std::ldexp and
 /// std::floor are calls on processors that cannot be taken for granted, and lattices ask
 /// for millions.
 namespace hgmm {
 
-using portable::octaveOf;
-using portable::powerOfTwo;
-
-/// The same as for doubles.
+/// floor(log2(v)) of a normal positive number.
+inline int octaveOf(double v) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &v, sizeof(bits));
+    return static_cast<int>(bits >> 52U) - 1023;
+}
 inline int octaveOf(float v) {
     std::uint32_t bits = 0;
     std::memcpy(&bits, &v, sizeof(bits));
     return static_cast<int>(bits >> 23U) - 127;
 }
 
-/// 2^octave as a float, without a conversion.
+/// 2^octave, for octaves of normal numbers.
+inline double powerOfTwo(int octave) {
+    const auto bits = static_cast<std::uint64_t>(octave + 1023) << 52U;
+    double v = 0;
+    std::memcpy(&v, &bits, sizeof(v));
+    return v;
+}
+/// The same as a float, without a conversion.
 inline float floatPowerOfTwo(int octave) {
     const auto bits = static_cast<std::uint32_t>(octave + 127) << 23U;
     float v = 0;

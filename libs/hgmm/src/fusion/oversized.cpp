@@ -7,10 +7,10 @@
 #include <optional>
 #include <utility>
 
+#include "base/portable_math.h"
 #include "base/power_of_two.h"
 #include "fusion/novelty.h"
 #include "fusion/responsibilities.h"
-#include "hgmm/portable_math.h"
 
 namespace hgmm {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "hgmm/portable_math.h"
+#include "base/portable_math.h"
 
 namespace hgmm {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/hash_table.h"
+#include "base/portable_math.h"
 #include "fusion/responsibilities.h"
-#include "hgmm/portable_math.h"
 #include "mixture/regularized.h"
 
 namespace hgmm {

@@ -92,12 +92,8 @@ class CellBlocks {
 
 class CellBlocks::GroupView {
  public:
-    /// Whether all cells of the block at a place are marked, x + 4 y + 16 z in the group.
-    bool isFull(unsigned place) const { return (group_->full >> place & 1U) != 0; }
-    /// Whether all cells of all of them are.
-    bool isFull() const { return group_->full == kAllCells; }
     bool empty() const { return group_->present == 0; }
-    /// The cells of the block at a place.
+    /// The cells of the block at a place, x + 4 y + 16 z in the group.
     Word word(unsigned place) const { return blocks_->wordIn(*group_, place); }
 
  private:

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/portable_math.h"
 #include "base/require_rigid.h"
 #include "base/run_both.h"
 #include "fusion/carving.h"
@@ -12,7 +13,6 @@
 #include "hgmm/em.h"
 #include "hgmm/hierarchy.h"
 #include "hgmm/map.h"
-#include "hgmm/portable_math.h"
 #include "map/model.h"
 #include "occupancy/passed_surfaces.h"
 #include "scan/cells.h"

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/portable_math.h"
 #include "hgmm/divergence.h"
-#include "hgmm/portable_math.h"
 #include "mixture/goldberger.h"
 #include "mixture/regularized.h"
 
@@ -134,20 +134,19 @@ template <int D>
 void Agglomeration<D>::findPairs(std::uint32_t i, double limit, Pairs& pairs) const {
     pairs.clear();
     const Part& part = parts_[i];
-    typename BoundTree<D>::Point mean, own;
-    const auto bounds = boundItem(part.gaussian, 0.0);
-    mean = bounds.mean, own = bounds.variance;
+    const auto own = boundItem(part.gaussian, 0.0);
     // Whether components may be similar, either way round.
     const auto may = [&](auto&& gap, const typename BoundTree<D>::Point& variance) {
-        return mayBeWithin<D>(limit, gap, variance) || mayBeWithin<D>(limit, gap, own);
+        return mayBeWithin<D>(limit, gap, variance) ||
+               mayBeWithin<D>(limit, gap, own.variance);
     };
     const auto mayHold = [&](const typename BoundTree<D>::Node& node) {
-        return may([&](int a) { return node.gap(mean, a); }, node.widest);
+        return may([&](int a) { return node.gap(own.mean, a); }, node.widest);
     };
-    tree_.visit(mean, mayHold, [&](std::uint32_t j) {
+    tree_.visit(own.mean, mayHold, [&](std::uint32_t j) {
         const auto& item = tree_.item(j);
         if (j == i || takenOver_[j] != j ||
-            !may([&](int a) { return item.mean[a] - mean[a]; }, item.variance))
+            !may([&](int a) { return item.mean[a] - own.mean[a]; }, item.variance))
             return;
         const double apart = distance(part, parts_[j]);
         if (apart < limit) pairs.push_back({j, apart});

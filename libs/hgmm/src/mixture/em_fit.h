@@ -7,9 +7,9 @@
 #include <limits>
 #include <vector>
 
+#include "base/portable_math.h"
 #include "hgmm/em.h"
 #include "hgmm/gaussian.h"
-#include "hgmm/portable_math.h"
 #include "mixture/regularized.h"
 
 namespace hgmm::em {

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/portable_math.h"
 #include "hgmm/divergence.h"
-#include "hgmm/portable_math.h"
 #include "mixture/bound_tree.h"
 
 namespace hgmm {

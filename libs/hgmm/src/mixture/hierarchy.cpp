@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/portable_math.h"
 #include "hgmm/params.h"
-#include "hgmm/portable_math.h"
 #include "mixture/agglomeration.h"
 #include "mixture/knee.h"
 

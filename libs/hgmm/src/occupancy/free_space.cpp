@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "base/growth.h"
+#include "base/portable_math.h"
 #include "hgmm/params.h"
-#include "hgmm/portable_math.h"
 #include "mixture/regularized.h"
 
 namespace hgmm {

@@ -1,9 +1,9 @@
 #pragma once
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <initializer_list>
 #include <limits>
+
+#include "base/power_of_two.h"
 
 /// Functions whose bits are the same on every processor, for all that maps depend on. The C
 /// library's take other code where a processor has fused multiply-add.
@@ -11,20 +11,6 @@ namespace hgmm::portable {
 
 inline constexpr double kLog2High = 0x1.62e42feep-1;  ///< log 2 by 32 bits, and the rest
 inline constexpr double kLog2Low = 0x1.a39ef35793c76p-33;
-
-/// 2^octave, for octaves of normal numbers.
-inline double powerOfTwo(int octave) {
-    const auto bits = static_cast<std::uint64_t>(octave + 1023) << 52U;
-    double v = 0;
-    std::memcpy(&v, &bits, sizeof(v));
-    return v;
-}
-/// floor(log2(v)) of a normal positive number.
-inline int octaveOf(double v) {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &v, sizeof(bits));
-    return static_cast<int>(bits >> 52U) - 1023;
-}
 
 /// e^x within 2 ulp; 0 below -708, infinity above 709.
 inline double exp(double x) {
