@@ -14,6 +14,7 @@
 #include "hgmm/hierarchy.h"
 #include "hgmm/map.h"
 #include "map/model.h"
+#include "occupancy/mark_rays.h"
 #include "occupancy/passed_surfaces.h"
 #include "scan/cells.h"
 

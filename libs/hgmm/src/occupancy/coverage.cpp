@@ -68,10 +68,22 @@ int Coverage::Rays::octaveAt(double w_m) const {
     return octaveOf(kRoot2 * edge);
 }
 
+double Coverage::Rays::leftOut(double range_m) const {
+    return powerOfTwo(octaveAt(range_m)) / 2;
+}
+
 double Coverage::Rays::endOf(int octave) const {
     const double edge = kRoot2 * powerOfTwo(octave), root = edge / atOneMetre_m_;
     const double end = root * root;
     return edge < kWidestGap_m ? std::min(end, edge / perMetre_) : end;
+}
+
+void Coverage::markStretch(int octave, const Eigen::Vector3d& from,
+                           const Eigen::Vector3d& to, const Rays& rays) {
+    // A planar laser marks a layer of cells, or two if it lies near their border.
+    const Eigen::Vector3d aside = powerOfTwo(octave) / 4 * rays.normal();
+    markSegment(octave, from + aside, to + aside);
+    if (!rays.normal().isZero()) markSegment(octave, from - aside, to - aside);
 }
 
 void Coverage::markRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& end,
@@ -79,20 +91,11 @@ void Coverage::markRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& end
     const Eigen::Vector3d ray = end - origin;
     const double range = ray.norm();
     if (!(range > 0)) return;
-    const double stop = isHit ? range - powerOfTwo(rays.octaveAt(range)) / 2 : range;
-    double from = 0.0;
-    for (int octave = rays.octaveAt(0.0); from < stop; ++octave) {
-        const double to = std::min(stop, rays.endOf(octave));
-        // Lattices overlap by a cell: where one ends, the other is whole.
-        const double start = std::max(0.0, from - powerOfTwo(octave));
-        const Eigen::Vector3d a = origin + (start / range) * ray,
-                              b = origin + (to / range) * ray;
-        // A planar laser marks a layer of cells, or two if it lies near their border.
-        const Eigen::Vector3d aside = powerOfTwo(octave) / 4 * rays.normal();
-        markSegment(octave, a + aside, b + aside);
-        if (!rays.normal().isZero()) markSegment(octave, a - aside, b - aside);
-        from = to;
-    }
+    const double length = isHit ? range - rays.leftOut(range) : range;
+    rays.forEachStretch(length, [&](const Stretch& stretch) {
+        markStretch(stretch.octave, origin + (stretch.start_m() / range) * ray,
+                    origin + (std::min(length, stretch.to_m) / range) * ray, rays);
+    });
 }
 
 unsigned Coverage::corners(const LatticeCell& low) const {
@@ -228,21 +231,6 @@ bool Coverage::operator==(const Coverage& o) const {
         same = same && o.word(block) == cells;
     });
     return same;
-}
-
-void markRays(const Mixture<3>& samples, const ScanSamples& scan,
-              const Pose& T_local_sensor, const CoverageParams& params,
-              Coverage& coverage) {
-    const Coverage::Rays rays(params, scan.raySpacing_rad,
-                              T_local_sensor.R * scan.normalOfRays_sensor);
-    const Eigen::Vector3d& origin = T_local_sensor.t;
-    for (std::size_t i = 0; i < samples.size(); ++i)
-        coverage.markRay(origin, samples.meanAt(i), true, rays);
-    for (const ClearedRay& ray : scan.clearedRays_sensor)
-        coverage.markRay(origin,
-                         origin + T_local_sensor.R *
-                                      (double(ray.length_m) * ray.direction.cast<double>()),
-                         false, rays);
 }
 
 }  // namespace hgmm

@@ -1,10 +1,12 @@
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "base/power_of_two.h"
 #include "hgmm/params.h"
 #include "hgmm/scan.h"
 #include "index/cell_blocks.h"
@@ -22,6 +24,14 @@ class Coverage {
     using Word = CellBlocks::Word;
     static constexpr int kBlockShift = CellBlocks::kShift;
 
+    /// Where rays mark the cells of a lattice.
+    struct Stretch {
+        int octave;
+        double from_m, to_m;  ///< distances from the sensor
+        /// Lattices overlap by a cell: where one ends, the other is whole.
+        double start_m() const { return std::max(0.0, from_m - powerOfTwo(octave)); }
+    };
+
     /// What the rays of one scan have in common.
     class Rays {
      public:
@@ -36,6 +46,18 @@ class Coverage {
         int octaveAt(double w_m) const;
         /// Distance at which the cells of an octave end [m].
         double endOf(int octave) const;
+        /// How much of a ray before a hit marks nothing [m]: half a cell.
+        double leftOut(double range_m) const;
+        /// Calls visit(stretch) for each lattice of which a ray of a length marks cells.
+        template <typename Visitor>
+        void forEachStretch(double length_m, Visitor&& visit) const {
+            double from_m = 0.0;
+            for (int octave = octaveAt(0.0); from_m < length_m; ++octave) {
+                const Stretch stretch{octave, from_m, endOf(octave)};
+                visit(stretch);
+                from_m = stretch.to_m;
+            }
+        }
 
      private:
         Eigen::Vector3d normal_;
@@ -104,6 +126,9 @@ class Coverage {
     void mark(const LatticeCell& cell);
     /// Marks the cells of a lattice that a segment passes.
     void markSegment(int octave, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+    /// The same for a part of a ray.
+    void markStretch(int octave, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                     const Rays& rays);
     void unmark(const LatticeCell& block, Word cells);
 
     std::size_t blockCount() const { return blocks_.size(); }
@@ -122,11 +147,5 @@ class Coverage {
     CellBlocks blocks_;
     std::vector<int> octaves_;
 };
-
-/// Marks the cells that the rays of a scan pass, those that end on samples and those that
-/// clear.
-/// @param samples of the scan, in the local frame
-void markRays(const Mixture<3>& samples, const ScanSamples& scan,
-              const Pose& T_local_sensor, const CoverageParams& params, Coverage& coverage);
 
 }  // namespace hgmm
