@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "earlier.h"
 #include "interrupt.h"
 #include "map_setup.h"
 #include "options.h"
@@ -25,8 +26,12 @@ void defineOptions(CLI::App& app, Options& o) {
     app.add_option("--odometry", o.odometry,
                    "Poses of the robot by other means, which may drift; TUM lines");
     app.add_flag("--ignore-odometry", o.ignoreOdometry, "Use no odometry of the recording");
-    app.add_option("--config", o.config,
-                   "Map options: an MRPT .ini with hgmmMap_count = 1");
+    CLI::Option* const config = app.add_option(
+        "--config", o.config, "Map options: an MRPT .ini with hgmmMap_count = 1");
+    app.add_option("--continue", o.earlier,
+                   "Map of an earlier session to go on from (.hgmm), or its folder; its "
+                   "options are those of the new map")
+        ->excludes(config);
     app.add_option("--from", o.from, "First scan to use")->check(CLI::NonNegativeNumber);
     app.add_option("--to", o.to, "Last scan to use")->check(CLI::NonNegativeNumber);
     app.add_option("--threads", o.threads, "Threads (0 = one per core)")
@@ -55,15 +60,17 @@ void printSummary(const SlamRun& run) {
 ExitCode run(Options& options) {
     prepareOutputs(options);
     replay::useThreads(options.threads);
-    const auto map = replay::makeMap(options.config);
+    const auto map =
+        options.earlier ? loadEarlier(options) : replay::makeMap(options.config);
     const hgmm::evaluation::RecordingOptions recordingOptions =
         recordingOptionsFor(options);
     Recording recording(options.log, recordingOptions);
     if (!recording.damage().empty())
         std::fprintf(stderr, "warning: %s\n", recording.damage().c_str());
     replay::catchInterrupts();
-    const SlamRun slam = runSlam(recording, map->insertionOptions.params,
-                                 map->insertionOptions.reading, options);
+    SlamRun slam = runSlam(recording, map->insertionOptions.params,
+                           map->insertionOptions.reading, options);
+    if (options.earlier) goOnFrom(*map, slam, options);
     writeOutputs(slam, *map, recordingOptions, options);
     printSummary(slam);
     if (!slam.interrupted) return kDone;

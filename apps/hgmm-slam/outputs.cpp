@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "earlier.h"
 #include "simple_map.h"
 
 namespace fs = std::filesystem;
@@ -50,6 +51,7 @@ void prepareOutputs(const Options& options) {
     std::vector<std::string> inputs{options.log};
     for (const auto& input : {options.config, options.odometry})
         if (input) inputs.push_back(*input);
+    if (options.earlier) inputs.push_back(earlierMapFile(options));
     mrpt_bridge::checkOutputs(Outputs(options.folder).all(), inputs, replaceBy(options));
 }
 
