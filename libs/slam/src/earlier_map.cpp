@@ -66,27 +66,51 @@ std::vector<Eigen::Vector3d> ratedPoints(const Mixture<3>& surfaces) {
 
 struct RatedPlace {
     Pose T_map_submap;
+    Eigen::Vector3d sensor_map = Eigen::Vector3d::Zero();
+    double heading_rad = 0.0;
     double score = 0.0;  // sum of log-likelihoods [nat]
+
+    bool operator<(const RatedPlace& other) const { return score < other.score; }
 };
 
-RatedPlace bestHeading(const SurfaceLikelihood& likelihood,
-                       const std::vector<Eigen::Vector3d>& points_submap,
-                       const Eigen::Vector3d& sensor_submap,
-                       const Eigen::Vector3d& sensor_map, int headings) {
-    RatedPlace best;
-    for (int h = 0; h < headings; ++h) {
-        Pose T;
-        T.R = rotationOf({0, 0, 2.0 * M_PI * h / headings});
-        T.t = sensor_map - T.R * sensor_submap;
-        double score = 0.0;
+/// What a place is rated by.
+struct Rating {
+    const SurfaceLikelihood& likelihood;
+    std::vector<Eigen::Vector3d> points_submap;
+    Eigen::Vector3d sensor_submap;
+
+    RatedPlace at(const Eigen::Vector3d& sensor_map, double heading_rad) const {
+        RatedPlace place;
+        place.sensor_map = sensor_map;
+        place.heading_rad = heading_rad;
+        place.T_map_submap.R = rotationOf({0, 0, heading_rad});
+        place.T_map_submap.t = sensor_map - place.T_map_submap.R * sensor_submap;
         for (const Eigen::Vector3d& point : points_submap) {
-            const Eigen::Vector3f p = (T.R * point + T.t).cast<float>();
-            score += likelihood(p.x(), p.y(), p.z());
+            const Eigen::Vector3f p =
+                (place.T_map_submap.R * point + place.T_map_submap.t).cast<float>();
+            place.score += likelihood(p.x(), p.y(), p.z());
         }
-        if (h == 0 || score > best.score) best = {T, score};
+        return place;
     }
-    return best;
-}
+
+    RatedPlace bestHeading(const Eigen::Vector3d& sensor_map, int headings) const {
+        RatedPlace best = at(sensor_map, 0.0);
+        for (int h = 1; h < headings; ++h)
+            best = std::max(best, at(sensor_map, 2.0 * M_PI * h / headings));
+        return best;
+    }
+
+    /// The best about a place, a step to each side.
+    RatedPlace refined(const RatedPlace& place, double step_m, double step_rad) const {
+        RatedPlace best = place;
+        for (int k = 0; k < 81; ++k) {
+            const Eigen::Vector3d shift(k % 3 - 1, k / 3 % 3 - 1, k / 9 % 3 - 1);
+            best = std::max(best, at(place.sensor_map + step_m * shift,
+                                     place.heading_rad + step_rad * (k / 27 - 1)));
+        }
+        return best;
+    }
+};
 
 /// The box that a submap's surfaces fill where it lies, and how uncertain that is.
 Eigen::AlignedBox3d boxOf(const Mixture<3>& surfaces, const UncertainPose& T_map_submap) {
@@ -139,27 +163,34 @@ EarlierMap::EarlierMap(std::shared_ptr<const Map> map, const EarlierMapParams& p
             SurfaceLikelihood(surfacesInMapFrame(*map_), 0.7 * spacing_m_, kOutlierRatio);
 }
 
+double EarlierMap::headingStep_rad() const {
+    return 2.0 * M_PI / params_.headings;
+}
+
 std::vector<Pose> EarlierMap::likeliestPlaces(const FinishedSubmap& submap) const {
-    const std::vector<Eigen::Vector3d> points = ratedPoints(submap.shape.surfaces_submap);
+    const Rating rating{likelihood_, ratedPoints(submap.shape.surfaces_submap),
+                        submap.submap.sensor_submap};
     std::vector<RatedPlace> rated(positions_map_.size());
 #pragma omp parallel for schedule(static)
     for (std::int64_t k = 0; k < static_cast<std::int64_t>(rated.size()); ++k) {
         const auto i = static_cast<std::size_t>(k);
-        rated[i] = bestHeading(likelihood_, points, submap.submap.sensor_submap,
-                               positions_map_[i], params_.headings);
+        rated[i] = rating.bestHeading(positions_map_[i], params_.headings);
     }
-    std::stable_sort(
-        rated.begin(), rated.end(),
-        [](const RatedPlace& a, const RatedPlace& b) { return a.score > b.score; });
+    std::stable_sort(rated.begin(), rated.end(),
+                     [](const RatedPlace& a, const RatedPlace& b) { return b < a; });
     std::vector<Pose> places;
+    std::vector<Pose> refined;
     for (const RatedPlace& r : rated) {
         const bool known = std::any_of(places.begin(), places.end(), [&](const Pose& p) {
             return areOnePlace(p, r.T_map_submap, 1.5 * spacing_m_);
         });
-        if (!known) places.push_back(r.T_map_submap);
+        if (known) continue;
+        places.push_back(r.T_map_submap);
+        refined.push_back(
+            rating.refined(r, spacing_m_ / 3.0, headingStep_rad() / 3.0).T_map_submap);
         if (static_cast<int>(places.size()) == params_.aligned) break;
     }
-    return places;
+    return refined;
 }
 
 std::vector<UncertainPose> EarlierMap::placesOf(const FinishedSubmap& submap,
@@ -168,8 +199,11 @@ std::vector<UncertainPose> EarlierMap::placesOf(const FinishedSubmap& submap,
     const std::vector<Pose> places = likeliestPlaces(submap);
     ClosureParams strict = closure;
     strict.minOverlap = std::max(closure.minOverlap, params_.minOverlap);
+    // What is left of the steps between the places.
     strict.registration.coarseWidth_m =
-        std::max(closure.registration.coarseWidth_m, spacing_m_);
+        std::max(strict.registration.fineWidth_m, 0.3 * spacing_m_);
+    strict.registration.coarseAngle_rad =
+        std::max(strict.registration.fineAngle_rad, 0.5 * headingStep_rad());
     std::vector<std::optional<UncertainPose>> verified(places.size());
 #pragma omp parallel for schedule(dynamic)
     for (std::int64_t k = 0; k < static_cast<std::int64_t>(places.size()); ++k) {

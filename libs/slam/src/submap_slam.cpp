@@ -10,24 +10,12 @@
 #include <utility>
 
 #include "closure_pool.h"
+#include "drift.h"
 
 namespace hgmm::slam {
 namespace {
 
 using SharedSubmap = std::shared_ptr<const FinishedSubmap>;
-
-/// Odometry's own covariance, and the drift that it does not know of.
-UncertainPose withDrift(const UncertainPose& motion, const DriftParams& drift) {
-    const double way_m = motion.T_a_b.t.norm();
-    const double turn_rad = rotationVectorOf(motion.T_a_b.R).norm();
-    UncertainPose drifting = motion;
-    drifting.covariance.topLeftCorner<3, 3>().diagonal().array() +=
-        1e-8 + drift.turnPerMetre_rad * drift.turnPerMetre_rad * way_m +
-        std::pow(drift.turnPerTurn * turn_rad, 2);
-    drifting.covariance.bottomRightCorner<3, 3>().diagonal().array() +=
-        1e-6 + drift.shiftPerMetre * drift.shiftPerMetre * way_m;
-    return drifting;
-}
 
 void requireRigid(const Pose& pose, const char* name) {
     const Eigen::Matrix3d off = pose.R.transpose() * pose.R - Eigen::Matrix3d::Identity();
@@ -72,14 +60,6 @@ std::vector<PoseEdge> closuresOf(const std::vector<SharedSubmap>& submaps,
 }
 
 }  // namespace
-
-void DriftParams::validate() const {
-    for (const auto& [name, value] : {std::pair{"shiftPerMetre", shiftPerMetre},
-                                      std::pair{"turnPerMetre_rad", turnPerMetre_rad},
-                                      std::pair{"turnPerTurn", turnPerTurn}})
-        if (!(value > 0))
-            throw std::invalid_argument(std::string(name) + ": must be positive");
-}
 
 void SlamParams::validate() const {
     submap.validate();

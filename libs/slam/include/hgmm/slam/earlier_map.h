@@ -51,6 +51,7 @@ class EarlierMap {
     const EarlierMapParams& params() const { return params_; }
 
  private:
+    double headingStep_rad() const;
     std::vector<Pose> likeliestPlaces(const FinishedSubmap& submap) const;
 
     EarlierMapParams params_;
