@@ -40,7 +40,7 @@ void defineOptions(CLI::App& app, Options& o) {
     app.add_flag("--quiet", o.quiet, "No progress");
 }
 
-void printSummary(const SlamRun& run) {
+void printSummary(const SlamRun& run, const Options& options) {
     const std::size_t scans = run.trajectory.size();
     rusage used{};
     getrusage(RUSAGE_SELF, &used);
@@ -48,6 +48,10 @@ void printSummary(const SlamRun& run) {
         "%zu scans in %.1f s (%.1f scans/s), %zu submaps, %zu loop closures, %ld MB\n",
         scans, run.seconds, static_cast<double>(scans) / run.seconds, run.slam->submaps(),
         run.slam->closures(), used.ru_maxrss / 1024);
+    if (run.continuation.found)
+        std::printf("goes on from %s: %zu of %zu submaps that were looked for agree\n",
+                    earlierMapFile(options).c_str(), run.continuation.agreeing,
+                    run.continuation.searched);
     if (run.scansLost > 0)
         std::printf("warning: %zu scans were not recognised; their poses are guesses\n",
                     run.scansLost);
@@ -72,7 +76,7 @@ ExitCode run(Options& options) {
                            map->insertionOptions.reading, options);
     if (options.earlier) goOnFrom(*map, slam, options);
     writeOutputs(slam, *map, recordingOptions, options);
-    printSummary(slam);
+    printSummary(slam, options);
     if (!slam.interrupted) return kDone;
     std::fprintf(stderr,
                  "interrupted: all of the above is for the first %zu of %zu scans\n",

@@ -34,12 +34,17 @@ class Slam : public ReplayFolder {
         return observation;
     }
 
-    std::string recordWalk(const std::vector<Pose>& truth) const {
+    std::string recordWalk(const std::vector<Pose>& truth,
+                           const std::string& out = "out") const {
         box_room::Entries observations;
         for (std::size_t i = 0; i < truth.size(); ++i)
             observations.push_back(observationFrom(truth[i], i));
         box_room::writeRawlog(path("walk.rawlog"), observations);
-        return "'" + path("walk.rawlog") + "' -o '" + path("out") + "'";
+        return "'" + path("walk.rawlog") + "' -o '" + path(out) + "'";
+    }
+
+    std::string goingOnFrom(const std::string& name) const {
+        return " --continue '" + path(name) + "'";
     }
 
     inline static bool twoSensors = false;
@@ -104,6 +109,69 @@ TEST_F(Slam, OneLineAScanOfTheChosenSensor) {
     outcome = slam(arguments + " --sensor left");
     EXPECT_EQ(outcome.exitCode, 1);
     expectHas(outcome.err, "no scans of a sensor left, but of front, rear");
+}
+
+TEST_F(Slam, GoesOnFromAnEarlierMapInItsFrame) {
+    const std::vector<Pose> lap = walkAround(0.1, 0.2);
+    const std::vector<Pose> first(lap.begin(), lap.begin() + 70);
+    // From an unknown start, back to where the first session came from.
+    std::vector<Pose> second;
+    for (std::size_t i = lap.size(); i-- > 25;)
+        second.push_back({lap[i].R * hgmm::slam::rotationOf({0, 0, M_PI}), lap[i].t});
+    ASSERT_EQ(slam(recordWalk(first)).exitCode, 0);
+    const std::string map = content("out/map.hgmm");
+    const Outcome outcome = slam(recordWalk(second, "more") + goingOnFrom("out"));
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    expectHas(outcome.out, "goes on from");
+    EXPECT_EQ(content("out/map.hgmm"), map);
+
+    const Trajectory trajectory =
+        hgmm::evaluation::readTrajectory(path("more/trajectory.tum"));
+    ASSERT_EQ(trajectory.size(), second.size());
+    for (std::size_t i = 0; i < second.size(); ++i) {
+        const Pose truth = first[0].inverse() * second[i];
+        EXPECT_LT((trajectory[i].T_world_frame.t - truth.t).norm(), 0.15) << i;
+        EXPECT_LT(hgmm::slam::errorOf(trajectory[i].T_world_frame, truth).head<3>().norm(),
+                  0.05)
+            << i;
+    }
+    mrpt::maps::CHGMMOccupancyMap merged;
+    merged.loadFromFile(path("more/map.hgmm"));
+    for (const Pose& pose : {first.front(), second.front()})
+        EXPECT_GT(merged.model().occupancy((first[0].inverse() * pose).t).free, 0.5F);
+
+    // A map goes into another folder: the earlier one may still be wanted.
+    const Outcome same = slam(recordWalk(second) + goingOnFrom("out/map.hgmm"));
+    EXPECT_EQ(same.exitCode, 1);
+    expectHas(same.err, "map.hgmm");
+    EXPECT_EQ(content("out/map.hgmm"), map);
+}
+
+TEST_F(Slam, SaysWhenARecordingIsNotOfTheEarlierMap) {
+    const std::vector<Pose> lap = walkAround(0.1, 0.2);
+    ASSERT_EQ(slam(recordWalk({lap.begin(), lap.begin() + 60})).exitCode, 0);
+    ASSERT_EQ(replay(recordRoom() + " --save-map '" + path("room.hgmm") + "'").exitCode, 0);
+    std::filesystem::create_directories(path("more"));
+    std::filesystem::copy(path("out/map.hgmm"), path("more/map.hgmm"));
+    const Outcome outcome = slam(recordWalk({lap.begin(), lap.begin() + 60}, "more") +
+                                 goingOnFrom("room.hgmm"));
+    EXPECT_EQ(outcome.exitCode, 1);
+    expectHas(outcome.err, "is not known to be where");
+    expectHas(outcome.err, "Nothing was written");
+    EXPECT_EQ(content("more/map.hgmm"), content("out/map.hgmm"));
+    EXPECT_FALSE(std::filesystem::exists(path("more/trajectory.tum")));
+}
+
+TEST_F(Slam, RefusesEarlierMapsThatAreNoneBeforeItWorks) {
+    const std::string arguments = recordWalk(walkAround(0.1, 0.02));
+    std::ofstream(path("notes.hgmm")) << "somebody's notes\n";
+    for (const std::string name : {"none", "notes.hgmm"}) {
+        const Outcome outcome = slam(arguments + goingOnFrom(name));
+        EXPECT_EQ(outcome.exitCode, 1);
+        expectHas(outcome.err, name);
+        EXPECT_EQ(outcome.err.find("scans/s"), std::string::npos);
+    }
+    EXPECT_EQ(slam(arguments + goingOnFrom("notes.hgmm") + " --config x.ini").exitCode, 2);
 }
 
 TEST_F(Slam, RefusesBadInputBeforeItWorks) {
