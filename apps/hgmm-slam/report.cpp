@@ -22,6 +22,8 @@ constexpr double kMargin = 20.0;     // [px]
 constexpr double kTail = 0.02;       // share of surfaces that may lie beyond, on each side
 constexpr double kPatchReach = 1.7;  // half length of a patch [sigma]
 
+constexpr double kNarrow = 0.3;  // width over length of what stands upright
+
 template <typename... Numbers>
 std::string format(const char* pattern, Numbers... numbers) {
     std::array<char, 256> text{};
@@ -39,7 +41,8 @@ std::string escaped(const std::string& text) {
     return safe;
 }
 
-/// A surface component from above: a line along its longest horizontal axis.
+/// A surface component from above: a line along its longest horizontal axis. What is narrow
+/// there stands upright, or a planar laser saw it.
 struct Stroke {
     Eigen::Vector2d from_map, to_map;
     bool upright = false;
@@ -51,16 +54,13 @@ std::vector<Stroke> strokesOf(const Map& map) {
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         const Gaussian<3> component = surfaces[i];
         if (surfaces.support[i] < kSurfaceSupport) continue;
-        const Eigen::Matrix3d covariance = component.covariance;
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance);
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> fromAbove(
-            Eigen::Matrix2d(covariance.topLeftCorner<2, 2>()));
-        const Eigen::Vector2d half = kPatchReach *
-                                     std::sqrt(std::max(fromAbove.eigenvalues()[1], 0.0)) *
-                                     fromAbove.eigenvectors().col(1);
+        const Eigen::Matrix2d covariance =
+            Eigen::Matrix3d(component.covariance).topLeftCorner<2, 2>();
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance);
+        const Eigen::Vector2d sigma = axes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+        const Eigen::Vector2d half = kPatchReach * sigma[1] * axes.eigenvectors().col(1);
         const Eigen::Vector2d centre = Eigen::Vector3d(component.mean).head<2>();
-        strokes.push_back(
-            {centre - half, centre + half, std::abs(axes.eigenvectors()(2, 0)) < 0.5});
+        strokes.push_back({centre - half, centre + half, sigma[0] < kNarrow * sigma[1]});
     }
     return strokes;
 }
@@ -77,7 +77,9 @@ class Paper {
             for (const Stroke& s : strokes) values.push_back(s.from_map[axis]);
             std::sort(values.begin(), values.end());
             const auto tail = static_cast<std::size_t>(kTail * double(values.size()));
-            Eigen::Vector2d low = box.isEmpty() ? s0(strokes) : box.center(), high = low;
+            Eigen::Vector2d low =
+                box.isEmpty() ? strokes.front().from_map : Eigen::Vector2d(box.center());
+            Eigen::Vector2d high = low;
             low[axis] = values[tail];
             high[axis] = values[values.size() - 1 - tail];
             box.extend(low);
@@ -98,10 +100,6 @@ class Paper {
     Eigen::Vector2d size() const { return size_; }
 
  private:
-    static Eigen::Vector2d s0(const std::vector<Stroke>& strokes) {
-        return strokes.front().from_map;
-    }
-
     double scale_ = 1.0;
     Eigen::Vector2d corner_map_, size_;
 };

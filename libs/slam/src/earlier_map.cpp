@@ -8,6 +8,8 @@
 #include <unordered_set>
 #include <utility>
 
+#include "vertical.h"
+
 namespace hgmm::slam {
 namespace {
 
@@ -78,12 +80,14 @@ struct Rating {
     const SurfaceLikelihood& likelihood;
     std::vector<Eigen::Vector3d> points_submap;
     Eigen::Vector3d sensor_submap;
+    Eigen::Matrix3d R_map_level, R_level_submap;  // level: z is up
 
     RatedPlace at(const Eigen::Vector3d& sensor_map, double heading_rad) const {
         RatedPlace place;
         place.sensor_map = sensor_map;
         place.heading_rad = heading_rad;
-        place.T_map_submap.R = rotationOf({0, 0, heading_rad});
+        place.T_map_submap.R =
+            R_map_level * rotationOf({0, 0, heading_rad}) * R_level_submap;
         place.T_map_submap.t = sensor_map - place.T_map_submap.R * sensor_submap;
         for (const Eigen::Vector3d& point : points_submap) {
             const Eigen::Vector3f p =
@@ -156,6 +160,7 @@ EarlierMap::EarlierMap(std::shared_ptr<const Map> map, const EarlierMapParams& p
       likelihood_(surfacesInMapFrame(*map_), kKernel_m, kOutlierRatio) {
     FreePositions free =
         freePositionsOf(*map_, static_cast<std::size_t>(params_.maxPositions));
+    vertical_map_ = verticalOf(surfacesInMapFrame(*map_));
     positions_map_ = std::move(free.positions_map);
     spacing_m_ = free.spacing_m;
     if (0.7 * spacing_m_ > kKernel_m)
@@ -168,8 +173,10 @@ double EarlierMap::headingStep_rad() const {
 }
 
 std::vector<Pose> EarlierMap::likeliestPlaces(const FinishedSubmap& submap) const {
-    const Rating rating{likelihood_, ratedPoints(submap.shape.surfaces_submap),
-                        submap.submap.sensor_submap};
+    const Rating rating{
+        likelihood_, ratedPoints(submap.shape.surfaces_submap), submap.submap.sensor_submap,
+        rotationFromZ(vertical_map_),
+        rotationFromZ(verticalOf(submap.shape.surfaces_submap)).transpose()};
     std::vector<RatedPlace> rated(positions_map_.size());
 #pragma omp parallel for schedule(static)
     for (std::int64_t k = 0; k < static_cast<std::int64_t>(rated.size()); ++k) {

@@ -9,8 +9,8 @@
 
 namespace hgmm::slam {
 
-/// How submaps are found again in a map of an earlier session, nothing known but that the
-/// robot stands upright there and here.
+/// How submaps are found again in a map of an earlier session, nothing known but about
+/// which way is up.
 struct EarlierMapParams {
     int maxPositions = 4000;  ///< of the sensor that are rated [count], in [1, 1e6]
     int headings = 24;        ///< of each position [count], in [1, 360]
@@ -36,8 +36,9 @@ class EarlierMap {
                         const EarlierMapParams& params = {});
 
     /// Where a submap may lie, nothing known: the sensor is tried where rays passed, in all
-    /// headings about the map's z axis, and the likeliest places are verified
-    /// (verifiedPose). More than one if the map repeats itself.
+    /// headings about the vertical, which floors and ceilings tell where they are seen, and
+    /// the likeliest places are verified (verifiedPose). More than one if the map repeats
+    /// itself.
     std::vector<UncertainPose> placesOf(const FinishedSubmap& submap,
                                         const ClosureParams& closure) const;
 
@@ -59,6 +60,7 @@ class EarlierMap {
     std::vector<Eigen::Vector3d> positions_map_;  // in free space
     double spacing_m_ = 0.0;                      // of these
     SurfaceLikelihood likelihood_;
+    Eigen::Vector3d vertical_map_;
 };
 
 /// How a session lies in an earlier map.
