@@ -16,11 +16,12 @@ namespace {
 
 using slam::PoseEdge;
 
-constexpr double kSide = 1000.0;     // of the drawing, the longer one [px]
-constexpr double kText = 90.0;       // height of what is written above it [px]
-constexpr double kMargin = 20.0;     // [px]
-constexpr double kTail = 0.02;       // share of surfaces that may lie beyond, on each side
-constexpr double kPatchReach = 1.7;  // half length of a patch [sigma]
+constexpr double kSide = 1000.0;      // of the drawing, the longer one [px]
+constexpr double kText = 90.0;        // height of what is written above it [px]
+constexpr double kTextWidth = 740.0;  // of it, at most [px]
+constexpr double kMargin = 20.0;      // [px]
+constexpr double kTail = 0.05;        // share of surfaces that may lie beyond, on each side
+constexpr double kPatchReach = 1.7;   // half length of a patch [sigma]
 
 constexpr double kNarrow = 0.3;  // width over length of what stands upright
 
@@ -72,18 +73,18 @@ class Paper {
         Eigen::AlignedBox2d box;
         for (const evaluation::StampedPose& pose : way)
             box.extend(pose.T_world_frame.t.head<2>());
-        for (int axis = 0; axis < 2 && !strokes.empty(); ++axis) {
-            std::vector<double> values;
-            for (const Stroke& s : strokes) values.push_back(s.from_map[axis]);
-            std::sort(values.begin(), values.end());
-            const auto tail = static_cast<std::size_t>(kTail * double(values.size()));
-            Eigen::Vector2d low =
-                box.isEmpty() ? strokes.front().from_map : Eigen::Vector2d(box.center());
-            Eigen::Vector2d high = low;
-            low[axis] = values[tail];
-            high[axis] = values[values.size() - 1 - tail];
-            box.extend(low);
-            box.extend(high);
+        std::vector<double> x_map, y_map;
+        for (const Stroke& stroke : strokes) {
+            x_map.push_back(stroke.from_map.x());
+            y_map.push_back(stroke.from_map.y());
+        }
+        std::sort(x_map.begin(), x_map.end());
+        std::sort(y_map.begin(), y_map.end());
+        const auto tail = static_cast<std::size_t>(kTail * double(strokes.size()));
+        if (!strokes.empty()) {
+            box.extend(Eigen::Vector2d(x_map[tail], y_map[tail]));
+            box.extend(Eigen::Vector2d(x_map.rbegin()[std::ptrdiff_t(tail)],
+                                       y_map.rbegin()[std::ptrdiff_t(tail)]));
         }
         if (box.isEmpty()) box.extend(Eigen::Vector2d::Zero());
         const double extent_m = std::max(box.sizes().maxCoeff(), 1.0);
@@ -139,10 +140,10 @@ std::string drawnGraph(const SlamRun& run, const Paper& paper) {
     }
     for (std::size_t k = first; k < graph.T_world_node.size(); ++k) {
         const Eigen::Vector2d p = paper(graph.T_world_node[k].t.head<2>());
-        nodes += format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"5\" fill=\"%s\"/>\n", p.x(),
+        nodes += format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4.5\" fill=\"%s\"/>\n", p.x(),
                         p.y(), inEarlierMap.count(k) != 0 ? "#2a2" : "#fff");
     }
-    return "<path d=\"" + loops + "\" stroke=\"#e80\" stroke-width=\"2\"/>\n" +
+    return "<path d=\"" + loops + "\" stroke=\"#e80\" stroke-opacity=\".7\"/>\n" +
            "<g stroke=\"#06c\" stroke-width=\"1.5\">\n" + nodes + "</g>\n";
 }
 
@@ -182,13 +183,13 @@ std::string figuresOf(const SlamRun& run) {
 std::string reportSvg(const SlamRun& run, const Map& map, const std::string& title) {
     const std::vector<Stroke> strokes = strokesOf(map);
     const Paper paper(strokes, run.trajectory);
-    const Eigen::Vector2d all =
-        paper.size() + Eigen::Vector2d(2 * kMargin, kText + 3.5 * kMargin);
+    const double width = std::max(paper.size().x(), kTextWidth) + 2 * kMargin;
+    const double height = paper.size().y() + kText + 3.5 * kMargin;
     const std::size_t parts = run.slam->parts();
     std::string svg = format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" "
         "font-family=\"sans-serif\" font-size=\"16\">\n",
-        all.x(), all.y());
+        width, height);
     svg +=
         "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n<text x=\"20\" y=\"34\" "
         "font-size=\"20\">" +
@@ -206,8 +207,8 @@ std::string reportSvg(const SlamRun& run, const Map& map, const std::string& tit
         "<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n<path d=\"" +
         pathOf(strokes, false, paper) +
         "\" stroke=\"#ddd\" stroke-width=\"3\"/>\n<path d=\"" +
-        pathOf(strokes, true, paper) + "\" stroke=\"#444\" stroke-width=\"1.5\"/>\n" +
-        drawnWay(run.trajectory, paper) + drawnGraph(run, paper) + "</g>\n</svg>\n";
+        pathOf(strokes, true, paper) + "\" stroke=\"#555\"/>\n" + drawnGraph(run, paper) +
+        drawnWay(run.trajectory, paper) + "</g>\n</svg>\n";
     return svg + drawnScale(paper) + "</svg>\n";
 }
 

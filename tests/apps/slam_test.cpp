@@ -91,6 +91,37 @@ TEST_F(Slam, WritesMapTrajectoryGraphAndKeyframes) {
     EXPECT_EQ(content("out/graph.g2o").rfind("VERTEX_SE3:QUAT 0 ", 0), 0U);
 }
 
+TEST_F(Slam, DrawsAReport) {
+    const std::vector<Pose> truth = walkAround(0.1, 0.06);
+    recordWalk(truth);
+    std::filesystem::rename(path("walk.rawlog"), path("a<b & c.rawlog"));
+    const Outcome outcome =
+        slam("'" + path("a<b & c.rawlog") + "' -o '" + path("out") + "'");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const std::string svg = content("out/report.svg");
+    EXPECT_EQ(svg.rfind("<svg ", 0), 0U);
+    expectHas(svg, "a&lt;b &amp; c.rawlog");
+    expectHas(svg, std::to_string(truth.size()) + " scans");
+    expectHas(svg, " part</text>");
+
+    // A point for each scan, as long as the way by the scale's bar.
+    const std::size_t begin = svg.find("points=\"") + 8;
+    std::istringstream points(svg.substr(begin, svg.find('"', begin) - begin));
+    std::vector<Eigen::Vector2d> way;
+    for (std::string point; points >> point;) {
+        const std::size_t comma = point.find(',');
+        way.emplace_back(std::stod(point), std::stod(point.substr(comma + 1)));
+    }
+    ASSERT_EQ(way.size(), truth.size());
+    const std::size_t bar = svg.find("v8h") + 3;
+    const std::size_t text = svg.find('>', svg.find("<text", bar)) + 1;
+    const double metresPerPixel = std::stod(svg.substr(text)) / std::stod(svg.substr(bar));
+    EXPECT_NEAR((way.back() - way.front()).norm() * metresPerPixel,
+                (truth.back().t - truth.front().t).norm(), 0.1);
+    // The robot drives along x, which points to the right.
+    EXPECT_GT(way.back().x(), way.front().x());
+}
+
 TEST_F(Slam, OneLineAScanOfTheChosenSensor) {
     twoSensors = true;
     const std::string arguments = recordWalk(walkAround(0.1, 0.04));
