@@ -1,5 +1,7 @@
 #include "earlier.h"
 
+#include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
@@ -26,7 +28,13 @@ CHGMMOccupancyMap::Ptr loadEarlier(const Options& options) {
 }
 
 void goOnFrom(const CHGMMOccupancyMap& earlier, SlamRun& run, const Options& options) {
+    if (!options.quiet)
+        std::fprintf(stderr, "looking for the recording in %s\n",
+                     earlierMapFile(options).c_str());
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
     run.continuation = run.slam->continueFrom(std::make_shared<const Map>(earlier.model()));
+    run.seconds += std::chrono::duration<double>(Clock::now() - start).count();
     const slam::Continuation& c = run.continuation;
     if (!c.found) {
         const std::string counts =

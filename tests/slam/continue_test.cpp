@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 
@@ -154,6 +155,44 @@ TEST(Continue, IsTheSameForAnyNumberOfThreads) {
         EXPECT_EQ(one[i].R, three[i].R) << i;
         EXPECT_EQ(one[i].t, three[i].t) << i;
     }
+}
+
+/// Submap of what a lidar sees along poses, in a frame that is tilted against the first.
+FinishedSubmap tiltedSubmap(const Scene& scene, const std::vector<Pose>& truth,
+                            const Pose& T_submap_first) {
+    const SimulatedSensor lidar = evaluation::ringLidar(16, -15.0, 15.0, 240, 30.0);
+    Submap submap{MapParams{}};
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        const Pose T = T_submap_first * truth[0].inverse() * truth[i];
+        const auto returns =
+            evaluation::simulateReturns(scene, lidar, truth[i], {0.01, 0.0, 0.3}, 3, i);
+        submap.map.insert(samplesOf(evaluation::scanOf(returns, lidar, Pose{},
+                                                       evaluation::WithoutReturn::leftOut),
+                                    MapParams{}),
+                          T);
+        submap.T_submap_robot.push_back(T);
+    }
+    return FinishedSubmap(std::move(submap));
+}
+
+TEST(Continue, FindsASessionWhoseFrameIsTilted) {
+    Scene scene = ringCorridor();
+    scene.add(evaluation::Box{{-8, -8, -1.2}, {8, 8, -1.0}}, Part::floor);
+    const std::vector<Pose> lap = walkAround(0.4, 1.0);
+    const FinishedSubmap first = tiltedSubmap(scene, part(lap, 0.0, 0.4), {});
+    const Pose tilt{rotationOf({0.25, 0.15, 0}), Eigen::Vector3d::Zero()};
+    const std::vector<Pose> second = theOtherWay(part(lap, 0.1, 0.15));
+    const FinishedSubmap submap = tiltedSubmap(scene, second, tilt);
+    const Pose truth = lap[0].inverse() * second[0] * tilt.inverse();
+    const EarlierMap earlier(std::make_shared<const Map>(first.submap.map));
+    double nearest_m = 1e9, nearest_rad = 1e9;
+    for (const UncertainPose& place : earlier.placesOf(submap, {})) {
+        const Vector6d error = errorOf(place.T_a_b, truth);
+        nearest_m = std::min(nearest_m, error.tail<3>().norm());
+        nearest_rad = std::min(nearest_rad, error.head<3>().norm());
+    }
+    EXPECT_LT(nearest_m, 0.1);
+    EXPECT_LT(nearest_rad, 0.02);
 }
 
 TEST(Continue, RefusesWhatIsNoMapAndWhatIsNotFinished) {
