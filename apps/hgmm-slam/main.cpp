@@ -78,9 +78,12 @@ ExitCode run(Options& options) {
     writeOutputs(slam, *map, recordingOptions, options);
     printSummary(slam, options);
     if (!slam.interrupted) return kDone;
-    std::fprintf(stderr,
-                 "interrupted: all of the above is for the first %zu of %zu scans\n",
-                 slam.trajectory.size(), recording.size());
+    std::fprintf(
+        stderr,
+        "interrupted: all of the above is for the first %zu of %zu scans; the rest "
+        "can go on from there: --continue '%s' --from %zu\n",
+        slam.trajectory.size(), recording.size(), options.folder.c_str(),
+        options.from + slam.trajectory.size());
     return kInterrupted;
 }
 

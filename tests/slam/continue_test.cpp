@@ -118,6 +118,19 @@ TEST(Continue, AnotherBuildingIsNotTakenForTheFirst) {
     EXPECT_EQ(mapBefore, slam->fusedMap());
 }
 
+/// A single place proves little: a submap of a kitchen was found in a building.
+TEST(Continue, ASingleSubmapIsNotBelieved) {
+    const Scene scene = ringCorridor();
+    const std::vector<Pose> lap = walkAround(0.25, 1.0);
+    const auto earlier =
+        std::make_shared<const Map>(walked(scene, part(lap, 0, 0.3))->fusedMap());
+    const auto slam = walked(scene, part(lap, 0.1, 0.13));
+    ASSERT_EQ(slam->submaps(), 1U);
+    const Continuation continuation = slam->continueFrom(earlier);
+    EXPECT_EQ(continuation.agreeing, 1U);
+    EXPECT_FALSE(continuation.found);
+}
+
 /// Four sides that look alike, without any pillar.
 TEST(Continue, ABuildingThatRepeatsItselfIsRefused) {
     Scene scene;

@@ -150,7 +150,7 @@ void EarlierMapParams::validate() const {
     require(headings >= 1 && headings <= 360, "headings: must be in [1, 360]");
     require(aligned >= 1 && aligned <= 10000, "aligned: must be in [1, 1e4]");
     require(minOverlap > 0 && minOverlap <= 1, "minOverlap: must be in (0, 1]");
-    require(minFound >= 1, "minFound: must be at least 1");
+    require(minFound >= 2, "minFound: must be at least 2");
     require(maxSearched >= 1, "maxSearched: must be at least 1");
 }
 

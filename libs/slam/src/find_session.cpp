@@ -13,6 +13,8 @@ using SharedSubmaps = std::vector<std::shared_ptr<const FinishedSubmap>>;
 constexpr double kUnknown_m = 1e4, kUnknown_rad = 3.0;
 /// Sets of closures that lay the session nearer to each other than this are one place.
 constexpr double kOneAnswer_m = 2.0, kOneAnswer_rad = 0.35;
+/// A single submap may fit another building by chance.
+constexpr std::size_t kFewest = 2;
 /// More than so many need not be looked for, where they agree.
 constexpr int kPlenty = 4;
 
@@ -86,8 +88,8 @@ FoundSession findSession(const EarlierMap& earlier, const SharedSubmaps& submaps
             usable.push_back(k);
     const std::vector<std::size_t> searched =
         spread(usable, static_cast<std::size_t>(earlier.params().maxSearched));
-    const std::size_t needed =
-        std::min(static_cast<std::size_t>(earlier.params().minFound), searched.size());
+    const std::size_t needed = std::clamp(
+        searched.size(), kFewest, static_cast<std::size_t>(earlier.params().minFound));
     FoundSession found;
     std::vector<PoseEdge> all;
     for (const std::size_t k : searched) {
@@ -97,8 +99,8 @@ FoundSession findSession(const EarlierMap& earlier, const SharedSubmaps& submaps
         found.closures = consistentOf(session, all);
         found.elsewhere =
             consistentOf(session, elsewhere(all, found.closures, session)).size();
-        found.sure = found.closures.size() >= std::max<std::size_t>(needed, 1) &&
-                     found.closures.size() > 2 * found.elsewhere;
+        found.sure =
+            found.closures.size() >= needed && found.closures.size() > 2 * found.elsewhere;
         if (found.sure && static_cast<int>(found.closures.size()) >= kPlenty) break;
     }
     return found;

@@ -18,8 +18,8 @@ struct EarlierMapParams {
     /// Share of a submap's surfaces that the map must have where it is looked for
     /// everywhere [1], in (0, 1].
     double minOverlap = 0.5;
-    /// Submaps that must be found where they lie to each other as in this session, if there
-    /// are as many [count], >= 1.
+    /// Submaps that must be found where they lie to each other as in this session; two
+    /// where there are no more [count], >= 2.
     int minFound = 3;
     int maxSearched = 24;  ///< submaps, evenly spread, that are looked for [count], >= 1
 
