@@ -173,7 +173,7 @@ TEST(Continue, IsTheSameForAnyNumberOfThreads) {
 /// Submap of what a lidar sees along poses, in a frame that is tilted against the first.
 FinishedSubmap tiltedSubmap(const Scene& scene, const std::vector<Pose>& truth,
                             const Pose& T_submap_first) {
-    const SimulatedSensor lidar = evaluation::ringLidar(16, -15.0, 15.0, 240, 30.0);
+    const SimulatedSensor lidar = evaluation::ringLidar(32, -30.0, 20.0, 360, 30.0);
     Submap submap{MapParams{}};
     for (std::size_t i = 0; i < truth.size(); ++i) {
         const Pose T = T_submap_first * truth[0].inverse() * truth[i];
@@ -192,9 +192,9 @@ TEST(Continue, FindsASessionWhoseFrameIsTilted) {
     Scene scene = ringCorridor();
     scene.add(evaluation::Box{{-8, -8, -1.2}, {8, 8, -1.0}}, Part::floor);
     const std::vector<Pose> lap = walkAround(0.4, 1.0);
-    const FinishedSubmap first = tiltedSubmap(scene, part(lap, 0.0, 0.4), {});
+    const FinishedSubmap first = tiltedSubmap(scene, part(lap, 0.0, 0.3), {});
     const Pose tilt{rotationOf({0.25, 0.15, 0}), Eigen::Vector3d::Zero()};
-    const std::vector<Pose> second = theOtherWay(part(lap, 0.1, 0.15));
+    const std::vector<Pose> second = theOtherWay(part(lap, 0.1, 0.2));
     const FinishedSubmap submap = tiltedSubmap(scene, second, tilt);
     const Pose truth = lap[0].inverse() * second[0] * tilt.inverse();
     const EarlierMap earlier(std::make_shared<const Map>(first.submap.map));

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kReach_rad = M_PI / 6.0;   // of normals about the z axis
 constexpr double kNarrowest_rad = 0.07;     // about what they share, in the end
-constexpr std::size_t kFewest = 20;         // level patches that tell
+constexpr std::size_t kFewest = 10;         // level patches that tell
 constexpr double kThin = 0.3, kWide = 0.3;  // of a patch: its axes by each other
 
 struct LevelPatch {
