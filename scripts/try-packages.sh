@@ -118,6 +118,16 @@ triesPlugin() {
     say "a program with libmrpt-hgmm-dev, by pkg-config and by CMake"
 }
 
+triesBuilder() {
+    g++ -std=c++17 tests/install/builder_consumer/builder.cpp -o "$work/z" \
+        $(pkg-config --cflags --libs mrpt-hgmm-builder)
+    "$work/z" >/dev/null || fail "the map builder, by pkg-config"
+    cmake -S tests/install/builder_consumer -B "$work/builder" >/dev/null
+    cmake --build "$work/builder" >/dev/null
+    "$work/builder/consumer-builder" | grep -qE ': [1-9][0-9]* keyframe' || fail "the map builder, by CMake"
+    say "a program with libmrpt-hgmm-builder-dev, by pkg-config and by CMake"
+}
+
 triesStockPrograms() {
     local config=/usr/share/mrpt-hgmm/config_files/pf-localization.ini
     (cd "$work" && LD_PRELOAD=libmrpt-hgmm.so.0 timeout 200 pf-localization $config </dev/null >log 2>&1) ||
@@ -153,6 +163,8 @@ getOthers g++ cmake make pkg-config
 triesCore
 get libmrpt-hgmm-dev
 triesPlugin
+get libmrpt-hgmm-builder0 libmrpt-hgmm-builder-dev
+triesBuilder
 getOthers mrpt-apps
 triesStockPrograms
 triesRemoval

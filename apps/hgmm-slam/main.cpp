@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "earlier.h"
 #include "interrupt.h"
 #include "map_setup.h"
 #include "options.h"
@@ -25,8 +26,12 @@ void defineOptions(CLI::App& app, Options& o) {
     app.add_option("--odometry", o.odometry,
                    "Poses of the robot by other means, which may drift; TUM lines");
     app.add_flag("--ignore-odometry", o.ignoreOdometry, "Use no odometry of the recording");
-    app.add_option("--config", o.config,
-                   "Map options: an MRPT .ini with hgmmMap_count = 1");
+    CLI::Option* const config = app.add_option(
+        "--config", o.config, "Map options: an MRPT .ini with hgmmMap_count = 1");
+    app.add_option("--continue", o.earlier,
+                   "Map of an earlier session to go on from (.hgmm), or its folder; its "
+                   "options are those of the new map")
+        ->excludes(config);
     app.add_option("--from", o.from, "First scan to use")->check(CLI::NonNegativeNumber);
     app.add_option("--to", o.to, "Last scan to use")->check(CLI::NonNegativeNumber);
     app.add_option("--threads", o.threads, "Threads (0 = one per core)")
@@ -35,7 +40,7 @@ void defineOptions(CLI::App& app, Options& o) {
     app.add_flag("--quiet", o.quiet, "No progress");
 }
 
-void printSummary(const SlamRun& run) {
+void printSummary(const SlamRun& run, const Options& options) {
     const std::size_t scans = run.trajectory.size();
     rusage used{};
     getrusage(RUSAGE_SELF, &used);
@@ -43,6 +48,10 @@ void printSummary(const SlamRun& run) {
         "%zu scans in %.1f s (%.1f scans/s), %zu submaps, %zu loop closures, %ld MB\n",
         scans, run.seconds, static_cast<double>(scans) / run.seconds, run.slam->submaps(),
         run.slam->closures(), used.ru_maxrss / 1024);
+    if (run.continuation.found)
+        std::printf("goes on from %s: %zu of %zu submaps that were looked for agree\n",
+                    earlierMapFile(options).c_str(), run.continuation.agreeing,
+                    run.continuation.searched);
     if (run.scansLost > 0)
         std::printf("warning: %zu scans were not recognised; their poses are guesses\n",
                     run.scansLost);
@@ -55,21 +64,26 @@ void printSummary(const SlamRun& run) {
 ExitCode run(Options& options) {
     prepareOutputs(options);
     replay::useThreads(options.threads);
-    const auto map = replay::makeMap(options.config);
+    const auto map =
+        options.earlier ? loadEarlier(options) : replay::makeMap(options.config);
     const hgmm::evaluation::RecordingOptions recordingOptions =
         recordingOptionsFor(options);
     Recording recording(options.log, recordingOptions);
     if (!recording.damage().empty())
         std::fprintf(stderr, "warning: %s\n", recording.damage().c_str());
     replay::catchInterrupts();
-    const SlamRun slam = runSlam(recording, map->insertionOptions.params,
-                                 map->insertionOptions.reading, options);
+    SlamRun slam = runSlam(recording, map->insertionOptions.params,
+                           map->insertionOptions.reading, options);
+    if (options.earlier) goOnFrom(*map, slam, options);
     writeOutputs(slam, *map, recordingOptions, options);
-    printSummary(slam);
+    printSummary(slam, options);
     if (!slam.interrupted) return kDone;
-    std::fprintf(stderr,
-                 "interrupted: all of the above is for the first %zu of %zu scans\n",
-                 slam.trajectory.size(), recording.size());
+    std::fprintf(
+        stderr,
+        "interrupted: all of the above is for the first %zu of %zu scans; the rest "
+        "can go on from there: --continue '%s' --from %zu\n",
+        slam.trajectory.size(), recording.size(), options.folder.c_str(),
+        options.from + slam.trajectory.size());
     return kInterrupted;
 }
 

@@ -11,6 +11,7 @@ struct Options {
     std::string log;
     std::string folder;                      ///< of all outputs
     std::optional<std::string> config;       ///< of the map
+    std::optional<std::string> earlier;      ///< map to go on from, or its folder
     std::optional<std::string> odometry;     ///< poses of another program
     std::optional<std::string> sensorLabel;  ///< none: the only one, or the first
     bool ignoreOdometry = false;             ///< of the recording

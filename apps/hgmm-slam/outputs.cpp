@@ -5,8 +5,11 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "earlier.h"
+#include "report.h"
 #include "simple_map.h"
 
 namespace fs = std::filesystem;
@@ -25,11 +28,12 @@ struct Outputs {
         : map{folder + "/map.hgmm", FileKind::map},
           trajectory{folder + "/trajectory.tum", FileKind::numbers},
           graph{folder + "/graph.g2o", FileKind::text},
-          keyframes{folder + "/keyframes.simplemap", FileKind::simpleMap} {}
+          keyframes{folder + "/keyframes.simplemap", FileKind::simpleMap},
+          report{folder + "/report.svg", FileKind::svg} {}
 
-    std::vector<Output> all() const { return {map, trajectory, graph, keyframes}; }
+    std::vector<Output> all() const { return {map, trajectory, graph, keyframes, report}; }
 
-    Output map, trajectory, graph, keyframes;
+    Output map, trajectory, graph, keyframes, report;
 };
 
 Replace replaceBy(const Options& options) {
@@ -50,6 +54,7 @@ void prepareOutputs(const Options& options) {
     std::vector<std::string> inputs{options.log};
     for (const auto& input : {options.config, options.odometry})
         if (input) inputs.push_back(*input);
+    if (options.earlier) inputs.push_back(earlierMapFile(options));
     mrpt_bridge::checkOutputs(Outputs(options.folder).all(), inputs, replaceBy(options));
 }
 
@@ -58,14 +63,17 @@ void writeOutputs(const SlamRun& run, mrpt::maps::CHGMMOccupancyMap& map,
     const Outputs outputs(options.folder);
     const Replace replace = replaceBy(options);
     OutputFile trajectoryFile(outputs.trajectory, replace),
-        graphFile(outputs.graph, replace), keyframesFile(outputs.keyframes, replace);
+        graphFile(outputs.graph, replace), keyframesFile(outputs.keyframes, replace),
+        reportFile(outputs.report, replace);
     writeText(trajectoryFile, evaluation::tumText(run.trajectory));
     writeText(graphFile, slam::g2oText(run.slam->graph()));
     mrpt_bridge::writeObject(keyframesFile,
                              SimpleMapOfRecording(options.log, recording, run.trajectory));
     map.model() = run.slam->fusedMap();
+    writeText(reportFile, reportSvg(run, std::as_const(map).model(),
+                                    fs::path(options.log).filename().string()));
     map.saveToFile(outputs.map.file, options.force);
-    OutputFile::commitAll({&trajectoryFile, &graphFile, &keyframesFile});
+    OutputFile::commitAll({&trajectoryFile, &graphFile, &keyframesFile, &reportFile});
 }
 
 }  // namespace hgmm::slam_app

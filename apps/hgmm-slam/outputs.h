@@ -11,8 +11,8 @@ namespace hgmm::slam_app {
 /// replace an input or what is no such file.
 void prepareOutputs(const Options& options);
 
-/// Writes map.hgmm, and trajectory.tum, graph.g2o and keyframes.simplemap, all or none, if
-/// the map could be written.
+/// Writes map.hgmm, and trajectory.tum, graph.g2o, keyframes.simplemap and report.svg, all
+/// or none, if the map could be written.
 /// @param map empty, with the options that it is to have
 void writeOutputs(const SlamRun& run, mrpt::maps::CHGMMOccupancyMap& map,
                   const evaluation::RecordingOptions& recording, const Options& options);

@@ -14,6 +14,7 @@ namespace hgmm::slam_app {
 struct SlamRun {
     std::unique_ptr<slam::SubmapSlam> slam;  ///< finished
     evaluation::Trajectory trajectory;       ///< T_world_robot of each scan, in their order
+    slam::Continuation continuation;         ///< of an earlier map
     std::size_t scansLost = 0;
     double seconds = 0.0;  ///< that it took [s]
     bool interrupted = false;

@@ -28,6 +28,7 @@ set(SAME "(= ${PROJECT_VERSION}-${HGMM_DEBIAN_REVISION})")
 set(AT_LEAST "(>= ${PROJECT_VERSION})")
 set(CORE libhgmm${HGMM_SOVERSION})
 set(PLUGIN libmrpt-hgmm${HGMM_SOVERSION})
+set(BUILDER libmrpt-hgmm-builder${HGMM_SOVERSION})
 
 hgmm_library_deb(core ${CORE}
     SUMMARY "3D occupancy map made of Gaussians - library"
@@ -47,6 +48,16 @@ hgmm_deb(plugin-dev libmrpt-hgmm-dev SECTION libdevel
     SUMMARY "3D occupancy map made of Gaussians - development files of the plugin"
     ABOUT "This package has the headers of the map class of MRPT, and its files for CMake"
         "and pkg-config.")
+hgmm_library_deb(builder ${BUILDER}
+    DEPENDS "${CORE} ${AT_LEAST}" "${PLUGIN} ${AT_LEAST}"
+    SUMMARY "3D occupancy map made of Gaussians - map builder for MRPT"
+    ABOUT "This package has simultaneous localisation and mapping as one of MRPT's map"
+        "builders.")
+hgmm_deb(builder-dev libmrpt-hgmm-builder-dev SECTION libdevel
+    DEPENDS "${BUILDER} ${SAME}" "libmrpt-hgmm-dev ${SAME}" libmrpt-slam-dev
+    SUMMARY "3D occupancy map made of Gaussians - development files of the builder"
+    ABOUT "This package has the header of the map builder, and its files for CMake and"
+        "pkg-config.")
 hgmm_deb(tools mrpt-hgmm-tools SECTION science
     DEPENDS "${CORE} ${AT_LEAST}" "${PLUGIN} ${AT_LEAST}"
     RECOMMENDS mrpt-apps python3-hgmm

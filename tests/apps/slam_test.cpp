@@ -34,12 +34,17 @@ class Slam : public ReplayFolder {
         return observation;
     }
 
-    std::string recordWalk(const std::vector<Pose>& truth) const {
+    std::string recordWalk(const std::vector<Pose>& truth,
+                           const std::string& out = "out") const {
         box_room::Entries observations;
         for (std::size_t i = 0; i < truth.size(); ++i)
             observations.push_back(observationFrom(truth[i], i));
         box_room::writeRawlog(path("walk.rawlog"), observations);
-        return "'" + path("walk.rawlog") + "' -o '" + path("out") + "'";
+        return "'" + path("walk.rawlog") + "' -o '" + path(out) + "'";
+    }
+
+    std::string goingOnFrom(const std::string& name) const {
+        return " --continue '" + path(name) + "'";
     }
 
     inline static bool twoSensors = false;
@@ -86,6 +91,37 @@ TEST_F(Slam, WritesMapTrajectoryGraphAndKeyframes) {
     EXPECT_EQ(content("out/graph.g2o").rfind("VERTEX_SE3:QUAT 0 ", 0), 0U);
 }
 
+TEST_F(Slam, DrawsAReport) {
+    const std::vector<Pose> truth = walkAround(0.1, 0.06);
+    recordWalk(truth);
+    std::filesystem::rename(path("walk.rawlog"), path("a<b & c.rawlog"));
+    const Outcome outcome =
+        slam("'" + path("a<b & c.rawlog") + "' -o '" + path("out") + "'");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const std::string svg = content("out/report.svg");
+    EXPECT_EQ(svg.rfind("<svg ", 0), 0U);
+    expectHas(svg, "a&lt;b &amp; c.rawlog");
+    expectHas(svg, std::to_string(truth.size()) + " scans");
+    expectHas(svg, " part</text>");
+
+    // A point for each scan, as long as the way by the scale's bar.
+    const std::size_t begin = svg.find("points=\"") + 8;
+    std::istringstream points(svg.substr(begin, svg.find('"', begin) - begin));
+    std::vector<Eigen::Vector2d> way;
+    for (std::string point; points >> point;) {
+        const std::size_t comma = point.find(',');
+        way.emplace_back(std::stod(point), std::stod(point.substr(comma + 1)));
+    }
+    ASSERT_EQ(way.size(), truth.size());
+    const std::size_t bar = svg.find("v8h") + 3;
+    const std::size_t text = svg.find('>', svg.find("<text", bar)) + 1;
+    const double metresPerPixel = std::stod(svg.substr(text)) / std::stod(svg.substr(bar));
+    EXPECT_NEAR((way.back() - way.front()).norm() * metresPerPixel,
+                (truth.back().t - truth.front().t).norm(), 0.1);
+    // The robot drives along x, which points to the right.
+    EXPECT_GT(way.back().x(), way.front().x());
+}
+
 TEST_F(Slam, OneLineAScanOfTheChosenSensor) {
     twoSensors = true;
     const std::string arguments = recordWalk(walkAround(0.1, 0.04));
@@ -104,6 +140,69 @@ TEST_F(Slam, OneLineAScanOfTheChosenSensor) {
     outcome = slam(arguments + " --sensor left");
     EXPECT_EQ(outcome.exitCode, 1);
     expectHas(outcome.err, "no scans of a sensor left, but of front, rear");
+}
+
+TEST_F(Slam, GoesOnFromAnEarlierMapInItsFrame) {
+    const std::vector<Pose> lap = walkAround(0.1, 0.2);
+    const std::vector<Pose> first(lap.begin(), lap.begin() + 70);
+    // From an unknown start, back to where the first session came from.
+    std::vector<Pose> second;
+    for (std::size_t i = lap.size(); i-- > 25;)
+        second.push_back({lap[i].R * hgmm::slam::rotationOf({0, 0, M_PI}), lap[i].t});
+    ASSERT_EQ(slam(recordWalk(first)).exitCode, 0);
+    const std::string map = content("out/map.hgmm");
+    const Outcome outcome = slam(recordWalk(second, "more") + goingOnFrom("out"));
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    expectHas(outcome.out, "goes on from");
+    EXPECT_EQ(content("out/map.hgmm"), map);
+
+    const Trajectory trajectory =
+        hgmm::evaluation::readTrajectory(path("more/trajectory.tum"));
+    ASSERT_EQ(trajectory.size(), second.size());
+    for (std::size_t i = 0; i < second.size(); ++i) {
+        const Pose truth = first[0].inverse() * second[i];
+        EXPECT_LT((trajectory[i].T_world_frame.t - truth.t).norm(), 0.15) << i;
+        EXPECT_LT(hgmm::slam::errorOf(trajectory[i].T_world_frame, truth).head<3>().norm(),
+                  0.05)
+            << i;
+    }
+    mrpt::maps::CHGMMOccupancyMap merged;
+    merged.loadFromFile(path("more/map.hgmm"));
+    for (const Pose& pose : {first.front(), second.front()})
+        EXPECT_GT(merged.model().occupancy((first[0].inverse() * pose).t).free, 0.5F);
+
+    // A map goes into another folder: the earlier one may still be wanted.
+    const Outcome same = slam(recordWalk(second) + goingOnFrom("out/map.hgmm"));
+    EXPECT_EQ(same.exitCode, 1);
+    expectHas(same.err, "map.hgmm");
+    EXPECT_EQ(content("out/map.hgmm"), map);
+}
+
+TEST_F(Slam, SaysWhenARecordingIsNotOfTheEarlierMap) {
+    const std::vector<Pose> lap = walkAround(0.1, 0.2);
+    ASSERT_EQ(slam(recordWalk({lap.begin(), lap.begin() + 60})).exitCode, 0);
+    ASSERT_EQ(replay(recordRoom() + " --save-map '" + path("room.hgmm") + "'").exitCode, 0);
+    std::filesystem::create_directories(path("more"));
+    std::filesystem::copy(path("out/map.hgmm"), path("more/map.hgmm"));
+    const Outcome outcome = slam(recordWalk({lap.begin(), lap.begin() + 60}, "more") +
+                                 goingOnFrom("room.hgmm"));
+    EXPECT_EQ(outcome.exitCode, 1);
+    expectHas(outcome.err, "is not known to be where");
+    expectHas(outcome.err, "Nothing was written");
+    EXPECT_EQ(content("more/map.hgmm"), content("out/map.hgmm"));
+    EXPECT_FALSE(std::filesystem::exists(path("more/trajectory.tum")));
+}
+
+TEST_F(Slam, RefusesEarlierMapsThatAreNoneBeforeItWorks) {
+    const std::string arguments = recordWalk(walkAround(0.1, 0.02));
+    std::ofstream(path("notes.hgmm")) << "somebody's notes\n";
+    for (const std::string name : {"none", "notes.hgmm"}) {
+        const Outcome outcome = slam(arguments + goingOnFrom(name));
+        EXPECT_EQ(outcome.exitCode, 1);
+        expectHas(outcome.err, name);
+        EXPECT_EQ(outcome.err.find("scans/s"), std::string::npos);
+    }
+    EXPECT_EQ(slam(arguments + goingOnFrom("notes.hgmm") + " --config x.ini").exitCode, 2);
 }
 
 TEST_F(Slam, RefusesBadInputBeforeItWorks) {

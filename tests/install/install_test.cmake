@@ -22,8 +22,20 @@ step(${CMAKE_COMMAND} -E chdir ${WORK_DIR} build/consumer-documented)
 if(NOT STEP_OUTPUT MATCHES "P\\(occupied\\) = 0\\.[5-9]" OR NOT EXISTS ${WORK_DIR}/map.hgmm)
     message(FATAL_ERROR "consumer-documented printed: ${STEP_OUTPUT}")
 endif()
+step(${CMAKE_COMMAND} -S ${CONSUMER_DIR}/../builder_consumer -B ${WORK_DIR}/builder -G Ninja
+    -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix -DCMAKE_CXX_FLAGS=${CXX_FLAGS})
+step(${CMAKE_COMMAND} --build ${WORK_DIR}/builder)
+step(${WORK_DIR}/builder/consumer-builder)
+if(NOT STEP_OUTPUT MATCHES "consumer-builder: [1-9][0-9]* keyframe")
+    message(FATAL_ERROR "consumer-builder printed: ${STEP_OUTPUT}")
+endif()
+step(ldd ${WORK_DIR}/builder/consumer-builder)
+if(NOT STEP_OUTPUT MATCHES "${WORK_DIR}/prefix/[^ ]*libmrpt-hgmm-builder")
+    message(FATAL_ERROR "consumer-builder needs:\n${STEP_OUTPUT}")
+endif()
 foreach(installed
         bin/hgmm-replay bin/hgmm-import bin/hgmm-map bin/hgmm-localise lib/pkgconfig/mrpt-hgmm.pc
+        lib/pkgconfig/mrpt-hgmm-builder.pc
         share/mrpt-hgmm/config_files/pf-localization.ini)
     if(NOT EXISTS ${WORK_DIR}/prefix/${installed})
         message(FATAL_ERROR "not installed: ${installed}")

@@ -10,24 +10,12 @@
 #include <utility>
 
 #include "closure_pool.h"
+#include "drift.h"
 
 namespace hgmm::slam {
 namespace {
 
 using SharedSubmap = std::shared_ptr<const FinishedSubmap>;
-
-/// Odometry's own covariance, and the drift that it does not know of.
-UncertainPose withDrift(const UncertainPose& motion, const DriftParams& drift) {
-    const double way_m = motion.T_a_b.t.norm();
-    const double turn_rad = rotationVectorOf(motion.T_a_b.R).norm();
-    UncertainPose drifting = motion;
-    drifting.covariance.topLeftCorner<3, 3>().diagonal().array() +=
-        1e-8 + drift.turnPerMetre_rad * drift.turnPerMetre_rad * way_m +
-        std::pow(drift.turnPerTurn * turn_rad, 2);
-    drifting.covariance.bottomRightCorner<3, 3>().diagonal().array() +=
-        1e-6 + drift.shiftPerMetre * drift.shiftPerMetre * way_m;
-    return drifting;
-}
 
 void requireRigid(const Pose& pose, const char* name) {
     const Eigen::Matrix3d off = pose.R.transpose() * pose.R - Eigen::Matrix3d::Identity();
@@ -51,19 +39,19 @@ double medianRange(const Mixture<3>& samples_sensor) {
     return std::sqrt(static_cast<double>(*middle));
 }
 
-/// The verified closures of the newest of some submaps. Those that ended early hold too
-/// little to be aligned well.
+/// Whether a submap holds too little to be aligned well.
+bool endsEarly(const FinishedSubmap& finished, const SubmapParams& params) {
+    return static_cast<int>(finished.submap.T_submap_robot.size()) < params.minScans;
+}
+
+/// The verified closures of the newest of some submaps.
 std::vector<PoseEdge> closuresOf(const std::vector<SharedSubmap>& submaps,
                                  const PoseGraph& graph, const SlamParams& params) {
     const std::size_t newest = submaps.size() - 1;
-    const auto endedEarly = [&](std::size_t k) {
-        return static_cast<int>(submaps[k]->submap.T_submap_robot.size()) <
-               params.submap.minScans;
-    };
     std::vector<PoseEdge> found;
-    if (endedEarly(newest)) return found;
+    if (endsEarly(*submaps[newest], params.submap)) return found;
     for (const Candidate& c : candidatesFor(submaps, graph, newest, params.closure)) {
-        if (endedEarly(c.target)) continue;
+        if (endsEarly(*submaps[c.target], params.submap)) continue;
         const auto pose = verifiedPose(*submaps[c.target], *submaps[newest],
                                        c.T_target_source, params.closure);
         if (pose) found.push_back({c.target, newest, *pose, PoseEdge::Kind::closure});
@@ -73,19 +61,12 @@ std::vector<PoseEdge> closuresOf(const std::vector<SharedSubmap>& submaps,
 
 }  // namespace
 
-void DriftParams::validate() const {
-    for (const auto& [name, value] : {std::pair{"shiftPerMetre", shiftPerMetre},
-                                      std::pair{"turnPerMetre_rad", turnPerMetre_rad},
-                                      std::pair{"turnPerTurn", turnPerTurn}})
-        if (!(value > 0))
-            throw std::invalid_argument(std::string(name) + ": must be positive");
-}
-
 void SlamParams::validate() const {
     submap.validate();
     drift.validate();
     closure.validate();
     optimisation.validate();
+    earlier.validate();
 }
 
 struct SubmapSlam::Impl {
@@ -150,7 +131,33 @@ struct SubmapSlam::Impl {
     }
 
     bool isFinished() const {
-        return started && submaps.size() == graph.T_world_node.size();
+        return started && submaps.size() + firstNode() == graph.T_world_node.size();
+    }
+
+    /// Of the submaps: behind an earlier map.
+    std::size_t firstNode() const { return earlier ? 1 : 0; }
+    const Pose& T_world_submap(std::size_t k) const {
+        return graph.T_world_node[k + firstNode()];
+    }
+    std::size_t submapCount() const { return graph.T_world_node.size() - firstNode(); }
+
+    /// Lets submaps that show the same as the earlier map become closures. From one that is
+    /// found onwards to both sides, for the graph knows next where neighbours are.
+    void closeWithEarlier(const EarlierMap& map, const std::vector<PoseEdge>& found) {
+        const std::size_t start = found.front().to - 1;
+        std::vector<std::size_t> order;
+        for (std::size_t k = start; k < submaps.size(); ++k) order.push_back(k);
+        for (std::size_t k = start; k-- > 0;) order.push_back(k);
+        for (const std::size_t k : order) {
+            const bool known =
+                std::any_of(found.begin(), found.end(),
+                            [&](const PoseEdge& edge) { return edge.to == k + 1; });
+            if (known || endsEarly(*submaps[k], params.submap)) continue;
+            const auto place =
+                map.placeNear(*submaps[k], poseOfAll(graph, 0)[k + 1], params.closure);
+            if (!place) continue;
+            closures += pool.enter({{0, k + 1, *place, PoseEdge::Kind::closure}}, graph);
+        }
     }
 
     Pose robot() const { return graph.T_world_node.back() * T_submap_robot.T_a_b; }
@@ -165,6 +172,7 @@ struct SubmapSlam::Impl {
     PoseGraph graph;
     ClosurePool pool;
     std::vector<SharedSubmap> submaps;
+    std::shared_ptr<const Map> earlier;  // that the session was found in
     std::future<std::vector<PoseEdge>> search;
     std::size_t closures = 0;
 
@@ -197,7 +205,9 @@ void SubmapSlam::add(const ScanSamples& scan, const Pose& T_robot_sensor,
         s.range_m += 0.1 * (range_m - s.range_m);
         if (s.isComplete() || isGuess(s.T_submap_robot)) s.next();
     }
-    s.current.map.insert(scan, s.T_submap_robot.T_a_b * T_robot_sensor);
+    const Pose T_submap_sensor = s.T_submap_robot.T_a_b * T_robot_sensor;
+    if (s.current.map.empty()) s.current.sensor_submap = T_submap_sensor.t;
+    s.current.map.insert(scan, T_submap_sensor);
     s.current.T_submap_robot.push_back(s.T_submap_robot.T_a_b);
 }
 
@@ -219,11 +229,37 @@ void SubmapSlam::finish() {
     s.enterClosures();
 }
 
+Continuation SubmapSlam::continueFrom(std::shared_ptr<const Map> earlier) {
+    Impl& s = *impl_;
+    if (s.started && !s.isFinished())
+        throw std::logic_error("SubmapSlam: a map is gone on from after finish");
+    if (s.earlier) throw std::logic_error("SubmapSlam: has gone on from a map already");
+    const EarlierMap map(earlier, s.params.earlier);
+    if (!s.started) return {};
+    PoseGraph behind = behindEarlierMap(s.graph);
+    const FoundSession found =
+        findSession(map, s.submaps, behind, s.params.closure, s.params.submap.minScans);
+    const Continuation result{found.sure, found.searched, found.closures.size(),
+                              found.elsewhere};
+    if (!found.sure) return result;
+    const PoseEdge& first = found.closures.front();
+    const Pose T_world_session =
+        first.T_from_to.T_a_b * behind.T_world_node[first.to].inverse();
+    for (std::size_t k = 1; k < behind.T_world_node.size(); ++k)
+        behind.T_world_node[k] = T_world_session * behind.T_world_node[k];
+    s.graph = std::move(behind);
+    s.earlier = std::move(earlier);
+    s.pool = ClosurePool(s.params.optimisation);
+    s.closures += s.pool.enter(found.closures, s.graph);
+    s.closeWithEarlier(map, found.closures);
+    return result;
+}
+
 std::vector<Pose> SubmapSlam::trajectory() const {
     std::vector<Pose> poses;
-    for (std::size_t k = 0; k < impl_->graph.T_world_node.size(); ++k)
+    for (std::size_t k = 0; k < impl_->submapCount(); ++k)
         for (const Pose& T_submap_robot : impl_->submap(k).T_submap_robot)
-            poses.push_back(impl_->graph.T_world_node[k] * T_submap_robot);
+            poses.push_back(impl_->T_world_submap(k) * T_submap_robot);
     return poses;
 }
 
@@ -238,7 +274,7 @@ std::size_t SubmapSlam::closures() const {
     return impl_->closures;
 }
 std::size_t SubmapSlam::submaps() const {
-    return impl_->graph.T_world_node.size();
+    return impl_->submapCount();
 }
 
 std::size_t SubmapSlam::parts() const {
@@ -246,9 +282,9 @@ std::size_t SubmapSlam::parts() const {
 }
 
 Map SubmapSlam::fusedMap() const {
-    Map fused(impl_->mapParams);
-    for (std::size_t k = 0; k < impl_->graph.T_world_node.size(); ++k)
-        fused.merge(impl_->submap(k).map, impl_->graph.T_world_node[k]);
+    Map fused = impl_->earlier ? *impl_->earlier : Map(impl_->mapParams);
+    for (std::size_t k = 0; k < impl_->submapCount(); ++k)
+        fused.merge(impl_->submap(k).map, impl_->T_world_submap(k));
     return fused;
 }
 

@@ -78,10 +78,11 @@ std::vector<Pose> bestOf(const std::vector<Pose>& guesses, const FinishedSubmap&
     return best;
 }
 
-/// Both ways: of the one that shows less, half the overlap is enough.
+/// Both ways: of the one that shows more, less overlap is enough.
 bool holds(const Agreement& there, const Agreement& back, const ClosureParams& params) {
     return std::max(there.overlap, back.overlap) >= params.minOverlap &&
-           std::min(there.overlap, back.overlap) >= 0.5 * params.minOverlap &&
+           std::min(there.overlap, back.overlap) >=
+               params.minOverlapBack * params.minOverlap &&
            std::min(there.explained, back.explained) >= params.minExplained &&
            std::max(there.contradicted, back.contradicted) <= params.maxContradicted;
 }
@@ -103,6 +104,8 @@ void ClosureParams::validate() const {
     };
     require(maxCandidates >= 1, "maxCandidates: must be at least 1");
     require(minOverlap > 0 && minOverlap <= 1, "minOverlap: must be in (0, 1]");
+    require(minOverlapBack >= 0 && minOverlapBack <= 1,
+            "minOverlapBack: must be in [0, 1]");
     require(minExplained > 0 && minExplained <= 1, "minExplained: must be in (0, 1]");
     require(maxContradicted >= 0 && maxContradicted < 1,
             "maxContradicted: must be in [0, 1)");

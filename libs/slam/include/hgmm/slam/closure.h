@@ -16,6 +16,8 @@ struct ClosureParams {
     int maxCandidates = 3;  ///< submaps that a finished one is compared with [count], >= 1
     /// Share of surfaces that must be found, of the submap that shows less [1], in (0, 1].
     double minOverlap = 0.3;
+    /// Share of it that is enough of the submap that shows more [1], in [0, 1].
+    double minOverlapBack = 0.5;
     double minExplained = 0.8;  ///< of what the other saw there at all [1], in (0, 1]
     /// Share of what the other saw there that may lie in its surely free space [1], in [0,
     /// 1): things that moved.

@@ -27,6 +27,8 @@ struct Submap {
     Map map;  ///< in the submap's frame, whose origin is where the robot began
     /// Where the robot was at each scan.
     std::vector<Pose> T_submap_robot;
+    /// Where the sensor was at the first scan in the map [m].
+    Eigen::Vector3d sensor_submap = Eigen::Vector3d::Zero();
     double length_m = 0.0;  ///< of the way in it [m]
     double turn_rad = 0.0;  ///< sum of turns [rad]
 };

@@ -5,6 +5,7 @@
 
 #include "hgmm/map.h"
 #include "hgmm/slam/closure.h"
+#include "hgmm/slam/earlier_map.h"
 #include "hgmm/slam/pose_graph.h"
 #include "hgmm/slam/submap.h"
 
@@ -25,9 +26,19 @@ struct SlamParams {
     DriftParams drift;
     ClosureParams closure;
     OptimisationParams optimisation;
+    EarlierMapParams earlier;
 
     /// Throws std::invalid_argument naming the field.
     void validate() const;
+};
+
+/// Whether a session was found in an earlier map, and by how much.
+struct Continuation {
+    bool found = false;
+    std::size_t searched = 0;  ///< submaps that were looked for everywhere [count]
+    std::size_t agreeing =
+        0;  ///< of these, found where they lie as in this session [count]
+    std::size_t elsewhere = 0;  ///< that agree on another place just as well [count]
 };
 
 /// Simultaneous localisation and mapping behind an odometry: scans make submaps
@@ -66,18 +77,28 @@ class SubmapSlam {
     /// Waits for closures, and closes the submap at hand: what is asked below is final.
     void finish();
 
+    /// Looks for this session in the map of an earlier one, after finish(). Where it is
+    /// found, its frame becomes the world, and the earlier map, which stays as it is, a
+    /// part of the fused map: node 0 of the graph, and other nodes are one further on. All
+    /// submaps that show the same as it become closures. Where it is not, or in several
+    /// places, nothing changes.
+    /// Throws std::logic_error before finish() or when one was found before, and
+    /// std::invalid_argument for a null or empty map.
+    Continuation continueFrom(std::shared_ptr<const Map> earlier);
+
     /// Where the robot was at each scan, as is known now.
     std::vector<Pose> trajectory() const;
     /// Where the robot is.
     Pose T_world_robot() const;
-    /// Nodes are submaps.
+    /// Nodes are submaps, behind the earlier map if there is one.
     const PoseGraph& graph() const;
     /// Closures that are in the graph.
     std::size_t closures() const;
     std::size_t submaps() const;
     /// Groups of submaps that only guesses hold together: 1 if the map is one [count].
     std::size_t parts() const;
-    /// All submaps merged as they lie now (Map::merge).
+    /// All submaps merged as they lie now (Map::merge), into the earlier map if there is
+    /// one.
     Map fusedMap() const;
 
  private:
