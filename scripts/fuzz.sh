@@ -31,7 +31,7 @@ fuzz() {
         -rss_limit_mb=2048 -print_final_stats=1 -artifact_prefix="build-fuzz/findings/$name-" \
         "build-fuzz/corpus/$name" "tests/fuzz/corpus/$name" >"$said" 2>&1 || findings=1
     executions=$(awk '/stat::number_of_executed_units/ { print $2 }' "$said")
-    edges=$(grep -oE 'cov: [0-9]+' "$said" | tail -1 | cut -d' ' -f2)
+    edges=$(sed -nE 's/.* cov: ([0-9]+) .*/\1/p' "$said" | tail -1)
     printf '%-16s %8s s %10s executions %6s edges, %s\n' "$name" "$seconds" "${executions:-0}" "${edges:-0}" \
         "$( ((findings)) && echo "A FINDING: $said" || echo 'no finding')"
 }

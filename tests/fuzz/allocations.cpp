@@ -11,11 +11,16 @@ namespace {
 
 std::atomic<std::size_t> held{0}, most{0};
 
-void* counted(void* memory) {
-    if (memory == nullptr) throw std::bad_alloc();
+void* countedIfAny(void* memory) {
+    if (memory == nullptr) return nullptr;
     const std::size_t now = held += malloc_usable_size(memory);
     if (now > most) most = now;
     return memory;
+}
+
+void* counted(void* memory) {
+    if (memory == nullptr) throw std::bad_alloc();
+    return countedIfAny(memory);
 }
 
 void release(void* memory) {
@@ -27,6 +32,10 @@ void release(void* memory) {
 
 void* operator new(std::size_t size) {
     return counted(std::malloc(std::max<std::size_t>(size, 1)));
+}
+// libFuzzer allocates so.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    return countedIfAny(std::malloc(std::max<std::size_t>(size, 1)));
 }
 void* operator new(std::size_t size, std::align_val_t alignment) {
     const auto step = static_cast<std::size_t>(alignment);

@@ -41,6 +41,8 @@ class HGMM_EXPORT SurfaceLikelihood {
     /// Follows a mixture that has changed: enters the components that are not what they
     /// were, which is much cheaper than starting anew where few are. Answers are the same.
     void update(const Mixture<3>& mixture);
+    /// Whether update() would change nothing.
+    bool isOf(const Mixture<3>& mixture) const;
 
     /// p of one point in the mixture's frame, in [outlierRatio, 1]. A point that is not
     /// finite is an outlier. Thread-safe.

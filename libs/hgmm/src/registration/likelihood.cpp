@@ -77,6 +77,7 @@ struct SurfaceLikelihood::Impl {
     Impl(const Mixture<3>& mixture, double kernelWidth_m, double outlierRatio);
 
     void update(const Mixture<3>& mixture);
+    bool isOf(const Mixture<3>& mixture) const;
     double probability(float x, float y, float z) const;
     std::size_t liveBytes() const;
 
@@ -128,6 +129,13 @@ void SurfaceLikelihood::Impl::update(const Mixture<3>& mixture) {
     moments_.reserve(n);
     for (std::uint32_t i = 0; i < n; ++i)
         if (i >= patches_.size() || moments_[i] != momentsOf(mixture, i)) enter(mixture, i);
+}
+
+bool SurfaceLikelihood::Impl::isOf(const Mixture<3>& mixture) const {
+    if (moments_.size() != mixture.size()) return false;
+    for (std::size_t i = 0; i < mixture.size(); ++i)
+        if (moments_[i] != momentsOf(mixture, i)) return false;
+    return true;
 }
 
 auto SurfaceLikelihood::Impl::momentsOf(const Mixture<3>& mixture, std::size_t i)
@@ -239,6 +247,10 @@ SurfaceLikelihood::~SurfaceLikelihood() = default;
 
 void SurfaceLikelihood::update(const Mixture<3>& mixture) {
     impl_->update(mixture);
+}
+
+bool SurfaceLikelihood::isOf(const Mixture<3>& mixture) const {
+    return impl_->isOf(mixture);
 }
 
 double SurfaceLikelihood::probability(float x, float y, float z) const {

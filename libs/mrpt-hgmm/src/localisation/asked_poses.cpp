@@ -79,24 +79,4 @@ PoseSpread AskedPoses::spreadOf(const Asked& asked) {
     return {std::sqrt(squaredDistances / poses), std::sqrt(squaredAngles / poses)};
 }
 
-WrittenMaps& WrittenMaps::ofProcess() {
-    static WrittenMaps written;
-    return written;
-}
-
-void WrittenMaps::remember(std::uint64_t digest, const MapFamily& family) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    written_[next_] = {std::this_thread::get_id(), digest, family};
-    next_ = (next_ + 1) % written_.size();
-}
-
-std::optional<MapFamily> WrittenMaps::familyOf(std::uint64_t digest) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    for (std::size_t k = 1; k <= written_.size(); ++k) {
-        const Written& w = written_[(next_ + written_.size() - k) % written_.size()];
-        if (w.digest == digest && w.thread == std::this_thread::get_id()) return w.family;
-    }
-    return std::nullopt;
-}
-
 }  // namespace hgmm::mrpt_bridge

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <thread>
 
@@ -64,29 +63,6 @@ class AskedPoses {
     std::mutex mutex_;
     std::array<Asked, 32> asked_;
     std::uint64_t observations_ = 0, calls_ = 0;
-};
-
-/// Families of the maps that were last written to archives, by the digest of the bytes:
-/// MRPT copies maps through archives, and a copy belongs to the family of its original.
-/// Memory is bounded. Thread-safe.
-class WrittenMaps {
- public:
-    static WrittenMaps& ofProcess();
-
-    void remember(std::uint64_t digest, const MapFamily& family);
-    /// The family of a map that this thread wrote.
-    std::optional<MapFamily> familyOf(std::uint64_t digest);
-
- private:
-    struct Written {
-        std::thread::id thread;
-        std::uint64_t digest = 0;
-        MapFamily family;
-    };
-
-    std::mutex mutex_;
-    std::array<Written, 16> written_;
-    std::size_t next_ = 0;  ///< the oldest
 };
 
 }  // namespace hgmm::mrpt_bridge

@@ -102,7 +102,7 @@ ObservationLikelihood& ObservationLikelihood::operator=(const ObservationLikelih
     const std::scoped_lock lock(mutex_, o.mutex_);
     surfaces_ = o.surfaces_;
     stale_ = o.stale_;
-    isOwner_ = o.isOwner_ = false;
+    ownSurfaces_ = o.ownSurfaces_ = nullptr;
     family_ = o.family_;
     return *this;
 }
@@ -143,6 +143,21 @@ void ObservationLikelihood::forgetPoses() {
     family_ = AskedPoses::ofProcess().newFamily();
 }
 
+ObservationLikelihood::Heritage ObservationLikelihood::heritage() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ownSurfaces_ = nullptr;
+    return {family_, surfaces_};
+}
+
+void ObservationLikelihood::inherit(const Heritage& heritage) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    family_ = heritage.family;
+    surfaces_ = heritage.surfaces.lock();
+    ownSurfaces_ = nullptr;
+    // The original may have changed since it brought them up to date.
+    stale_ = true;
+}
+
 void ObservationLikelihood::forgetObservations() {
     recentPoints().forget();
 }
@@ -152,14 +167,14 @@ std::shared_ptr<const ObservationLikelihood::Surfaces> ObservationLikelihood::su
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!surfaces_ || surfaces_->kernelWidth_m != kernel.kernelWidth_m ||
         surfaces_->outlierRatio != kernel.outlierRatio) {
-        surfaces_ = std::make_shared<Surfaces>(Surfaces{
+        ownSurfaces_ = std::make_shared<Surfaces>(Surfaces{
             SurfaceLikelihood(map.mixture(), kernel.kernelWidth_m, kernel.outlierRatio),
             kernel.kernelWidth_m, kernel.outlierRatio});
-        isOwner_ = true;
-    } else if (stale_) {
-        if (!isOwner_) surfaces_ = std::make_shared<Surfaces>(*surfaces_);
-        isOwner_ = true;
-        surfaces_->likelihood.update(map.mixture());
+        surfaces_ = ownSurfaces_;
+    } else if (stale_ && !surfaces_->likelihood.isOf(map.mixture())) {
+        if (!ownSurfaces_) ownSurfaces_ = std::make_shared<Surfaces>(*surfaces_);
+        surfaces_ = ownSurfaces_;
+        ownSurfaces_->likelihood.update(map.mixture());
     }
     stale_ = false;
     return surfaces_;

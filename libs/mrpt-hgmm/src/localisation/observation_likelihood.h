@@ -23,9 +23,10 @@ namespace hgmm::mrpt_bridge {
 ///
 /// Keeps what calls have in common: the map's surfaces, brought up to date where the map
 /// changed since invalidate(), and, for all maps of the process, the points of the last few
-/// observations. Const calls may come from several threads. Copies
-/// share the surfaces.
+/// observations. Const calls may come from several threads. Copies share the surfaces.
 class ObservationLikelihood {
+    struct Surfaces;
+
  public:
     ObservationLikelihood();
     ObservationLikelihood(const ObservationLikelihood& o);
@@ -41,8 +42,14 @@ class ObservationLikelihood {
     void invalidate();
     /// Poses asked about until now do not count for this map any more.
     void forgetPoses();
-    const MapFamily& family() const { return family_; }
-    void setFamily(const MapFamily& family) { family_ = family; }
+    /// What a copy of the map takes over that is made through an archive.
+    struct Heritage {
+        MapFamily family;
+        std::weak_ptr<const Surfaces> surfaces;
+    };
+    Heritage heritage() const;
+    /// The map has been read, and is the copy of another one.
+    void inherit(const Heritage& heritage);
     /// Frees the points of observations, those that other maps asked for included.
     static void forgetObservations();
 
@@ -58,10 +65,10 @@ class ObservationLikelihood {
     std::uint64_t number_;  ///< of this object in the process
 
     mutable std::mutex mutex_;
-    mutable std::shared_ptr<Surfaces> surfaces_;
-    /// Whether no copy of this object may hold the same surfaces: only then are they
-    /// brought up to date where they are, and not replaced.
-    mutable bool isOwner_ = false;
+    mutable std::shared_ptr<const Surfaces> surfaces_;
+    /// The same if no other object may hold them: only then are they brought up to date
+    /// where they are, and not replaced.
+    mutable std::shared_ptr<Surfaces> ownSurfaces_;
     mutable bool stale_ = false;  ///< the map has changed since
 };
 

@@ -9,6 +9,7 @@
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
 #include "hgmm/mrpt_bridge/output_file.h"
 #include "localisation/observation_likelihood.h"
+#include "localisation/written_maps.h"
 #include "map/map_archive.h"
 #include "observation/shared_samples.h"
 #include "options/modality_warnings.h"
@@ -115,14 +116,14 @@ uint8_t CHGMMOccupancyMap::serializeGetVersion() const {
 
 void CHGMMOccupancyMap::serializeTo(mrpt::serialization::CArchive& out) const {
     const std::uint64_t digest = bridge::writeMap(out, *this, encoding_);
-    bridge::WrittenMaps::ofProcess().remember(digest, caches_.likelihood().family());
+    bridge::WrittenMaps::ofProcess().remember(digest, caches_.likelihood().heritage());
 }
 
 void CHGMMOccupancyMap::serializeFrom(mrpt::serialization::CArchive& in, uint8_t version) {
     const std::uint64_t digest = bridge::readMap(in, version, *this);
-    const auto original = bridge::WrittenMaps::ofProcess().familyOf(digest);
+    const auto original = bridge::WrittenMaps::ofProcess().heritageOf(digest);
     if (original)
-        caches_.likelihood().setFamily(*original);
+        caches_.likelihood().inherit(*original);
     else
         caches_.likelihood().forgetPoses();
 }
