@@ -86,7 +86,7 @@ class Row {
     }
     void add(const Run& run) {
         ++runs_;
-        silent_ += run.worstInPart_m > kWrong_m ? 1 : 0;
+        silent_ += run.worstInPart_m > kWrong_m && run.parts == 1 ? 1 : 0;
         saySo_ += run.parts > 1 ? 1 : 0;
         lost_ += run.lostScans;
         closures_ += run.closures;
@@ -216,7 +216,8 @@ void tunnels(const SimulatedSensor& sensor, int count) {
     Row row("tunnel of " + std::to_string(100 * count) + " m");
     std::mt19937_64 random(1);
     const Place place = tunnel(length_m, random);
-    row.add(run(place.scene, sensor, driveAlong(place.way, 0.1), 1));
+    const Drive drive = driveAlong(place.way, 0.1);
+    row.add(run(place.scene, sensor, drive, 1));
     row.print();
 }
 

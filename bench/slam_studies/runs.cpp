@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -68,8 +69,10 @@ void judge(const Drive& drive, Run& run) {
         if (error.tail<3>().norm() < kFalse_m && error.head<3>().norm() < kFalse_rad)
             continue;
         ++run.falseClosures;
-        std::fprintf(stderr, "false closure %zu - %zu: off by %.2f m, %.2f rad\n",
-                     edge.from, edge.to, error.tail<3>().norm(), error.head<3>().norm());
+        if (std::getenv("DBG"))
+            std::fprintf(stderr, "false closure %zu - %zu: off by %.2f m, %.2f rad\n",
+                         edge.from, edge.to, error.tail<3>().norm(),
+                         error.head<3>().norm());
     }
     run.endError_m = ((drive.truth.front().inverse() * drive.truth.back()).t -
                       (run.found.front().inverse() * run.found.back()).t)

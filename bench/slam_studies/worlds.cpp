@@ -68,6 +68,22 @@ void addRoomBeside(Scene& scene, double x0, double length_m, double side,
     }
 }
 
+/// Cupboards along a wall from `from` to `to`, at random places.
+/// @param out where the corridor is: 1 for larger coordinates across the wall
+void furnishWall(Scene& scene, bool isAlongX, double from, double to, double across,
+                 double out, std::mt19937_64& random) {
+    for (double at = from + between(0.5, 3.0, random); at < to - 3.0;
+         at += between(3.0, 7.0, random)) {
+        const double end = at + between(0.4, 2.5, random);
+        const double deep = across + out * between(0.15, 0.5, random);
+        const double low = std::min(across, deep), high = std::max(across, deep);
+        if (isAlongX)
+            addUpright(scene, at, low, end, high, Part::solid);
+        else
+            addUpright(scene, low, at, high, end, Part::solid);
+    }
+}
+
 }  // namespace
 
 SimulatedSensor sensorOf(bool isPlanar) {
@@ -120,20 +136,26 @@ Place lookAlikeRooms(int roomsPerSide, std::mt19937_64& random) {
 }
 
 Place twoLoops(std::mt19937_64& random) {
-    constexpr double kLong = 40.0, kHigh = 20.0, kMid = 18.0, kWide = 2.0;
+    constexpr double kLong = 40.0, kHigh = 22.0, kMid = 15.0, kWide = 2.4;
     Place place;
     Scene& scene = place.scene;
     addWallsAround(scene, 0, 0, kLong, kHigh);
     addUpright(scene, kWide, kWide, kMid, kHigh - kWide);
     addUpright(scene, kMid + kWide, kWide, kLong - kWide, kHigh - kWide);
-    for (double x = between(2.0, 5.0, random); x < kLong - 2; x += between(2, 5, random))
-        addPillar(scene, x, random() % 2 == 0 ? 0.1 : kHigh - 0.1, random);
-    for (double y = between(2.0, 5.0, random); y < kHigh - 2; y += between(2, 4, random))
-        for (const double x : {0.1, kMid + 0.1, kLong - 0.1})
-            addPillar(scene, x, y + between(0.0, 1.5, random), random);
-    const double x1 = kMid + 1, x2 = kLong - 1, y2 = kHigh - 1;
-    place.way = {{1, 1},  {x1, 1},  {x1, y2}, {1, y2}, {1, 1}, {x1, 1},
-                 {x2, 1}, {x2, y2}, {x1, y2}, {x1, 1}, {1, 1}};
+    const double right = kLong - kWide, top = kHigh - kWide;
+    for (const auto& [y, out] :
+         {std::pair{0.0, 1.0}, {kWide, -1.0}, {top, 1.0}, {kHigh, -1.0}})
+        furnishWall(scene, true, 0, kLong, y, out, random);
+    for (const auto& [x, out] : {std::pair{0.0, 1.0},
+                                 {kWide, -1.0},
+                                 {kMid, 1.0},
+                                 {kMid + kWide, -1.0},
+                                 {right, 1.0},
+                                 {kLong, -1.0}})
+        furnishWall(scene, false, kWide, top, x, out, random);
+    const double half = kWide / 2, x1 = kMid + half, x2 = kLong - half, y2 = kHigh - half;
+    place.way = {{half, half}, {x1, half}, {x1, y2}, {half, y2}, {half, half}, {x1, half},
+                 {x2, half},   {x2, y2},   {x1, y2}, {x1, half}, {half, half}};
     return place;
 }
 

@@ -40,7 +40,8 @@ struct Place {
 /// comes back.
 Place lookAlikeRooms(int roomsPerSide, std::mt19937_64& random);
 
-/// Corridors about two blocks, with pillars at random places; the way is a lap about each.
+/// Corridors about two blocks, with cupboards at random places; the way is a lap about
+/// each.
 Place twoLoops(std::mt19937_64& random);
 
 /// Two smooth walls, floor and ceiling, which end where the sensor does not see it.

@@ -51,24 +51,34 @@ double medianRange(const Mixture<3>& samples_sensor) {
     return std::sqrt(static_cast<double>(*middle));
 }
 
-/// The verified closures of the newest of some submaps. Those that ended early hold too
-/// little to be aligned well.
-std::vector<PoseEdge> closuresOf(const std::vector<SharedSubmap>& submaps,
-                                 const PoseGraph& graph, const SlamParams& params) {
+/// What comparing the newest of some submaps with older ones has brought.
+struct Compared {
+    std::vector<PoseEdge> closures;  ///< verified
+    /// It lies on an older one, as the graph has it, that cannot be the same place.
+    bool contradictsGraph = false;
+};
+
+/// Those that ended early hold too little to be aligned well.
+Compared compareNewest(const std::vector<SharedSubmap>& submaps, const PoseGraph& graph,
+                       const SlamParams& params) {
     const std::size_t newest = submaps.size() - 1;
     const auto endedEarly = [&](std::size_t k) {
         return static_cast<int>(submaps[k]->submap.T_submap_robot.size()) <
                params.submap.minScans;
     };
-    std::vector<PoseEdge> found;
-    if (endedEarly(newest)) return found;
+    Compared result;
+    if (endedEarly(newest)) return result;
     for (const Candidate& c : candidatesFor(submaps, graph, newest, params.closure)) {
         if (endedEarly(c.target)) continue;
         const auto pose = verifiedPose(*submaps[c.target], *submaps[newest],
                                        c.T_target_source, params.closure);
-        if (pose) found.push_back({c.target, newest, *pose, PoseEdge::Kind::closure});
+        if (pose)
+            result.closures.push_back({c.target, newest, *pose, PoseEdge::Kind::closure});
+        else if (contradicts(*submaps[c.target], *submaps[newest], c.T_target_source))
+            result.contradictsGraph = true;
     }
-    return found;
+    if (!result.closures.empty()) result.contradictsGraph = false;
+    return result;
 }
 
 }  // namespace
@@ -123,7 +133,7 @@ struct SubmapSlam::Impl {
         search =
             std::async(std::launch::async, [all = submaps, known = graph, slam = params] {
                 omp_set_num_threads(1);  // the front has the others
-                return closuresOf(all, known, slam);
+                return compareNewest(all, known, slam);
             });
     }
 
@@ -146,7 +156,10 @@ struct SubmapSlam::Impl {
     }
 
     void enterClosures() {
-        if (search.valid()) closures += pool.enter(search.get(), graph);
+        if (!search.valid()) return;
+        Compared compared = search.get();
+        if (compared.contradictsGraph) doubtOdometryTo(submaps.size() - 1, graph);
+        closures += pool.enter(std::move(compared.closures), graph);
     }
 
     bool isFinished() const {
@@ -165,7 +178,7 @@ struct SubmapSlam::Impl {
     PoseGraph graph;
     ClosurePool pool;
     std::vector<SharedSubmap> submaps;
-    std::future<std::vector<PoseEdge>> search;
+    std::future<Compared> search;
     std::size_t closures = 0;
 
     Submap current;
