@@ -259,14 +259,13 @@ TEST(ScanTracker, GoesOnWhereItsMapDoesNotReach) {
     EXPECT_GT(last.overlap, 0.5);
 }
 
-/// Odometry says that the sensor stands still while it is carried to another room of the
-/// same size.
+/// Odometry says that the sensor stands still while it is carried to a longer room, in
+/// which it sees through the walls of the first one. Most of what it sees fits all the
+/// same.
 TEST(ScanTracker, ThatItWasCarriedAwayMakesTheNextMapAGuess) {
     const RoomScanner scanner = smallScanner();
     RoomScanner other = scanner;
-    other.furniture = {{Eigen::Vector3d(-1.2, -2.9, 0.0), Eigen::Vector3d(-0.4, -2.2, 2.2)},
-                       {Eigen::Vector3d(0.8, -0.8, 0.0), Eigen::Vector3d(1.6, 0.4, 2.0)},
-                       {Eigen::Vector3d(-3.4, 0.6, 0.0), Eigen::Vector3d(-2.4, 1.8, 2.3)}};
+    other.room = {Eigen::Vector3d(-9.0, -3.0, 0.0), Eigen::Vector3d(9.0, 3.0, 2.5)};
     ScanTracker tracker({}, {}, at(walk(0)));
     MotionIncrement still;
     double time_s = 0;
