@@ -181,6 +181,31 @@ TEST(ScanTracker, ACorridorLeavesTheWayAlongItToOdometry) {
     EXPECT_LT(std::sqrt(found.covariance(4, 4)), 0.01);
 }
 
+/// As a corridor, but the rings are so far apart that they do not join, or there is but
+/// one, of a planar laser: what is seen far along it is the pattern of the rays, which goes
+/// with the sensor.
+TEST(ScanTracker, ThePatternOfRaysDoesNotHoldASensorInACorridor) {
+    for (const int rings : {1, 16}) {
+        RoomScanner scanner = corridor();
+        scanner.azimuths = rings == 1 ? 480 : 240;
+        scanner.elevations = rings;
+        scanner.elevationSpan_rad = rings == 1 ? 0.0 : 0.52;
+        MapParams mapParams;
+        mapParams.filter.maxRange_m = 50;
+        ScanTracker tracker(mapParams, {}, at(poseAt(0, 0, 1)));
+        MotionIncrement motion;
+        motion.T_last_now.t = {0.15, 0, 0};
+        motion.covariance = Registration::Covariance::Identity() * 0.02 * 0.02;
+        TrackedPose found;
+        constexpr int kScans = 20;
+        for (int k = 0; k < kScans; ++k)
+            found = tracker.track(scanner.scan(poseAt(k * 0.15, 0, 1), k), k * kPeriod_s,
+                                  k > 0 ? std::optional(motion) : std::nullopt);
+        EXPECT_NEAR(found.T_map_sensor.t.x(), 0.15 * (kScans - 1), 0.3) << rings;
+        EXPECT_GT(std::sqrt(found.covariance(3, 3)), 0.02) << rings;
+    }
+}
+
 TEST(ScanTracker, APlanarLaserStaysInItsPlane) {
     RoomScanner scanner = smallScanner();
     scanner.elevations = 1;
@@ -232,6 +257,33 @@ TEST(ScanTracker, GoesOnWhereItsMapDoesNotReach) {
     EXPECT_LT(lost, 8);
     EXPECT_FALSE(last.lost);
     EXPECT_GT(last.overlap, 0.5);
+}
+
+/// Odometry says that the sensor stands still while it is carried to a longer room, in
+/// which it sees through the walls of the first one. Most of what it sees fits all the
+/// same.
+TEST(ScanTracker, ThatItWasCarriedAwayMakesTheNextMapAGuess) {
+    const RoomScanner scanner = smallScanner();
+    RoomScanner other = scanner;
+    other.room = {Eigen::Vector3d(-9.0, -3.0, 0.0), Eigen::Vector3d(9.0, 3.0, 2.5)};
+    ScanTracker tracker({}, {}, at(walk(0)));
+    MotionIncrement still;
+    double time_s = 0;
+    TrackedPose found;
+    for (int k = 0; k < 6; ++k)
+        found = tracker.track(scanner.scan(walk(0), k), time_s += kPeriod_s, still);
+    ASSERT_FALSE(found.lost);
+    EXPECT_LT(found.covariance(3, 3), 1e-3);
+    int lost = 0;
+    bool hasBegunAnew = false;
+    for (int k = 0; k < 8 && !hasBegunAnew; ++k) {
+        found = tracker.track(other.scan(walk(0), 20 + k), time_s += kPeriod_s, still);
+        lost += found.lost ? 1 : 0;
+        hasBegunAnew = found.lost && found.inserted;
+    }
+    EXPECT_EQ(lost, 5);
+    ASSERT_TRUE(hasBegunAnew);
+    EXPECT_GT(std::sqrt(found.covariance(3, 3)), 0.5);
 }
 
 TEST(ScanTracker, CovariancesAreChecked) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "closure_pool.h"
 #include "walk.h"
 
 namespace hgmm::slam {
@@ -113,6 +114,39 @@ TEST(Closure, AgreementTellsFoundFromContradictedAndUnseen) {
     EXPECT_EQ(agreementOf(submap.submap.map, surfaces, shifted).overlap, 0.0);
 }
 
+TEST(Closure, AgreementCountsSurfacesByTheirSize) {
+    const Scene scene = ringCorridor();
+    const FinishedSubmap submap = submapOf(scene, posesAlong(-6, -1, -6, 0.0));
+    Mixture<3> wallAndPost;
+    // A wall of 12 m in free space, and one thing of .1 m that is there.
+    Gaussian<3> component;
+    component.mean = Eigen::Vector3d(3, 0, 0);
+    component.covariance = Eigen::Vector3d(12.0, 1e-4, 1e-4).asDiagonal();
+    component.support = 100;
+    wallAndPost.pushBack(component);
+    const Mixture<3>& known = submap.shape.surfaces_submap;
+    component.mean = known[0].mean;
+    component.covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-4).asDiagonal();
+    wallAndPost.pushBack(component);
+    const Agreement agreement = agreementOf(submap.submap.map, wallAndPost, {});
+    EXPECT_LT(agreement.overlap, 0.3);
+    EXPECT_GT(agreement.contradicted, 0.5);
+}
+
+TEST(Closure, AGraphThatIsSureOfWhatCannotBeIsContradicted) {
+    std::mt19937_64 random(3);
+    const Scene room = furnishedRoom(random), other = furnishedRoom(random);
+    const auto there = posesAlong(-2, 2, 0.3, 0.0), back = posesAlong(-2, 2, -0.2, 0.0);
+    const FinishedSubmap target = submapOf(room, there), same = submapOf(room, back),
+                         elsewhere = submapOf(other, back);
+    const Pose truth = there[0].inverse() * back[0];
+    EXPECT_FALSE(contradicts(target, same, guess(truth, 0, 0, 0.05, 0.01)));
+    Pose acrossTheRoom = truth;
+    acrossTheRoom.t += Eigen::Vector3d(2.0, 1.5, 0);
+    EXPECT_TRUE(contradicts(target, elsewhere, guess(acrossTheRoom, 0, 0, 0.05, 0.01)));
+    EXPECT_FALSE(contradicts(target, elsewhere, guess(acrossTheRoom, 0, 0, 2.0, 0.01)));
+}
+
 TEST(Closure, AppearanceDoesNotChangeWithYawButWithThePlace) {
     const Scene scene = ringCorridor();
     const FinishedSubmap a = submapOf(scene, posesAlong(-6, -1, -6, 0.0));
@@ -158,6 +192,33 @@ TEST(Closure, TheLargestConsistentSetIsFound) {
         line.closure(3, 23, 1.99), line.closure(4, 24, 5.0),  line.closure(5, 25, -3.0)};
     EXPECT_EQ(consistentClosures(line.graph, closures),
               (std::vector<std::size_t>{0, 2, 3}));
+}
+
+/// A part of ten nodes, a guess, and another part of ten.
+Straight twoParts() {
+    Straight line(20);
+    doubtOdometryTo(10, line.graph);
+    return line;
+}
+
+TEST(ClosurePool, PartsAreJoinedByWhatIsFoundAtThreePlaces) {
+    Straight line = twoParts();
+    ASSERT_EQ(partsOf(line.graph), 2U);
+    ClosurePool pool({});
+    EXPECT_EQ(pool.enter({line.closure(1, 15, 0.2)}, line.graph), 0U);
+    // One place that is like three others, which agree with each other.
+    EXPECT_EQ(pool.enter({line.closure(3, 15, 0.2), line.closure(5, 15, 0.2)}, line.graph),
+              0U);
+    EXPECT_EQ(pool.enter({line.closure(3, 16, 0.2)}, line.graph), 0U);
+    EXPECT_EQ(pool.enter({line.closure(3, 17, 0.2)}, line.graph), 5U);
+    EXPECT_EQ(partsOf(line.graph), 1U);
+}
+
+TEST(ClosurePool, AClosureThatAgreesWithASureGraphEntersAtOnce) {
+    Straight line(20);
+    ClosurePool pool({});
+    EXPECT_EQ(pool.enter({line.closure(1, 15, 0.01)}, line.graph), 1U);
+    EXPECT_EQ(pool.enter({line.closure(1, 15, 5.0)}, line.graph), 0U);
 }
 
 TEST(Closure, DisagreementCountsClosureAndGraph) {

@@ -1,3 +1,4 @@
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +10,51 @@ namespace {
 constexpr double kSurelyFree = 0.9;   // P(free)
 constexpr double kSurelyKnown = 0.5;  // 1 - P(unknown)
 
+constexpr std::size_t kMostPoints = 1000;
+constexpr double kFinestSpacing_m = 0.2;
+
+/// A component's rectangle: a uniform one with its covariance.
+struct Rectangle {
+    explicit Rectangle(const Gaussian<3>& component) : mean(component.mean) {
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(
+            Eigen::Matrix3d(component.covariance));
+        axes = eigen.eigenvectors().rightCols<2>();
+        edges_m = std::sqrt(12.0) * eigen.eigenvalues().tail<2>().cwiseMax(0.0).cwiseSqrt();
+    }
+    Eigen::Array2i cuts(double spacing_m) const {
+        return (edges_m.array() / spacing_m).ceil().max(1.0).min(1e3).cast<int>();
+    }
+
+    Eigen::Vector3d mean;
+    Eigen::Matrix<double, 3, 2> axes;
+    Eigen::Vector2d edges_m;
+};
+
+/// Points that lie evenly on surfaces: a wall counts by its size, however many components
+/// it has.
+std::vector<Eigen::Vector3d> pointsOn(const Mixture<3>& surfaces) {
+    std::vector<Rectangle> rectangles;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) rectangles.emplace_back(surfaces[i]);
+    const auto count = [&](double spacing_m) {
+        std::size_t sum = 0;
+        for (const Rectangle& r : rectangles)
+            sum += static_cast<std::size_t>(r.cuts(spacing_m).prod());
+        return sum;
+    };
+    double spacing_m = kFinestSpacing_m;
+    while (count(spacing_m) > std::max(kMostPoints, surfaces.size())) spacing_m *= M_SQRT2;
+    std::vector<Eigen::Vector3d> points;
+    for (const Rectangle& r : rectangles) {
+        const Eigen::Array2i n = r.cuts(spacing_m);
+        for (int a = 0; a < n[0]; ++a)
+            for (int b = 0; b < n[1]; ++b)
+                points.push_back(r.mean +
+                                 r.axes.col(0) * r.edges_m[0] * ((a + 0.5) / n[0] - 0.5) +
+                                 r.axes.col(1) * r.edges_m[1] * ((b + 0.5) / n[1] - 0.5));
+    }
+    return points;
+}
+
 /// How far a surface may be from where it was seen to be: edges of the cells of a first
 /// guess are what is resolved [m].
 double toleranceAt(double range_m, const MapParams& params) {
@@ -19,13 +65,14 @@ double toleranceAt(double range_m, const MapParams& params) {
 
 Agreement agreementOf(const Map& target, const Mixture<3>& surfaces_source,
                       const Pose& T_target_source) {
-    const std::size_t n = surfaces_source.size();
+    const std::vector<Eigen::Vector3d> points_source = pointsOn(surfaces_source);
+    const std::size_t n = points_source.size();
     Agreement agreement;
     if (n == 0) return agreement;
     std::vector<Eigen::Vector3d> points_target;
     std::vector<double> tolerances_m;
     for (std::size_t i = 0; i < n; ++i) {
-        const Eigen::Vector3d point_source = surfaces_source[i].mean;
+        const Eigen::Vector3d& point_source = points_source[i];
         points_target.push_back(T_target_source.R * point_source + T_target_source.t);
         const double range_m = std::max(point_source.norm(), points_target.back().norm());
         tolerances_m.push_back(toleranceAt(range_m, target.params()));

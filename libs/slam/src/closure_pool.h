@@ -6,7 +6,8 @@
 namespace hgmm::slam {
 
 /// Verified closures on their way into the graph. One that agrees with the graph enters at
-/// once; others wait until enough of them agree with each other.
+/// once; others, and those between parts that only guesses hold together, wait until enough
+/// of them agree with each other.
 class ClosurePool {
  public:
     explicit ClosurePool(const OptimisationParams& params) : params_(params) {}
@@ -18,6 +19,10 @@ class ClosurePool {
  private:
     static constexpr std::size_t kEnough = 3;  // that agree, against the graph
     static constexpr std::size_t kMost = 60;   // that wait
+
+    /// One place that looks like another agrees with all that is around that one: what
+    /// joins parts must be found at several places.
+    bool areEnough(const std::vector<std::size_t>& agreeing, const PoseGraph& graph) const;
 
     OptimisationParams params_;
     std::vector<PoseEdge> waiting_;

@@ -1,6 +1,7 @@
 #include "hgmm/slam/odometry.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 namespace hgmm::slam {
@@ -19,6 +20,15 @@ Matrix6d rotated(const Matrix6d& covariance, const Eigen::Matrix3d& R) {
     Matrix6d by = Matrix6d::Zero();
     by.topLeftCorner<3, 3>() = by.bottomRightCorner<3, 3>() = R;
     return by * covariance * by.transpose();
+}
+
+/// Errors of given motions are alike from one to the next, as of a wheel's diameter: where
+/// surfaces do not hold the sensor, they add up as if they were independent from metre to
+/// metre, not from scan to scan. Returns the factor of their variance.
+double alikeness(const Pose& T_previous_robot) {
+    constexpr double kAlike_m = 1.0, kMost = 10.0;
+    const double way_m = T_previous_robot.t.norm();
+    return std::clamp(kAlike_m / std::max(way_m, 1e-6), 1.0, kMost);
 }
 
 PoseEstimate startAt(const Pose& T_map_sensor) {
@@ -57,9 +67,11 @@ UncertainPose Odometry::step(const Scan& scan, double time_s,
     const PoseEstimate now = last_, before = started_ ? held_ : now;
     if (held() || !started_) held_ = now;
     started_ = true;
-    const UncertainPose T_before_now{before.T_map_sensor.inverse() * now.T_map_sensor,
-                                     rotated(growth(before.covariance, now.covariance),
-                                             before.T_map_sensor.R.transpose())};
+    const double alike = increment ? alikeness(T_previous_robot->T_a_b) : 1.0;
+    const UncertainPose T_before_now{
+        before.T_map_sensor.inverse() * now.T_map_sensor,
+        rotated(alike * growth(before.covariance, now.covariance),
+                before.T_map_sensor.R.transpose())};
     return T_robot_sensor * T_before_now * T_sensor_robot;
 }
 

@@ -49,6 +49,15 @@ bool isGuess(const UncertainPose& pose) {
            covariance.topLeftCorner<3, 3>().diagonal().maxCoeff() > kGuess_rad * kGuess_rad;
 }
 
+void doubtOdometryTo(std::size_t node, PoseGraph& graph) {
+    for (PoseEdge& edge : graph.edges) {
+        if (edge.kind != PoseEdge::Kind::odometry || edge.to != node) continue;
+        Matrix6d& covariance = edge.T_from_to.covariance;
+        covariance.topLeftCorner<3, 3>().diagonal().array() += 4 * kGuess_rad * kGuess_rad;
+        covariance.bottomRightCorner<3, 3>().diagonal().array() += 4 * kGuess_m * kGuess_m;
+    }
+}
+
 std::size_t partsOf(const PoseGraph& graph) {
     const std::size_t n = graph.T_world_node.size();
     std::vector<std::size_t> part(n);

@@ -44,19 +44,29 @@ bool endsEarly(const FinishedSubmap& finished, const SubmapParams& params) {
     return static_cast<int>(finished.submap.T_submap_robot.size()) < params.minScans;
 }
 
-/// The verified closures of the newest of some submaps.
-std::vector<PoseEdge> closuresOf(const std::vector<SharedSubmap>& submaps,
-                                 const PoseGraph& graph, const SlamParams& params) {
+/// What comparing the newest of some submaps with older ones has brought.
+struct Compared {
+    std::vector<PoseEdge> closures;  ///< verified
+    /// It lies on an older one, as the graph has it, that cannot be the same place.
+    bool contradictsGraph = false;
+};
+
+Compared compareNewest(const std::vector<SharedSubmap>& submaps, const PoseGraph& graph,
+                       const SlamParams& params) {
     const std::size_t newest = submaps.size() - 1;
-    std::vector<PoseEdge> found;
-    if (endsEarly(*submaps[newest], params.submap)) return found;
+    Compared result;
+    if (endsEarly(*submaps[newest], params.submap)) return result;
     for (const Candidate& c : candidatesFor(submaps, graph, newest, params.closure)) {
         if (endsEarly(*submaps[c.target], params.submap)) continue;
         const auto pose = verifiedPose(*submaps[c.target], *submaps[newest],
                                        c.T_target_source, params.closure);
-        if (pose) found.push_back({c.target, newest, *pose, PoseEdge::Kind::closure});
+        if (pose)
+            result.closures.push_back({c.target, newest, *pose, PoseEdge::Kind::closure});
+        else if (contradicts(*submaps[c.target], *submaps[newest], c.T_target_source))
+            result.contradictsGraph = true;
     }
-    return found;
+    if (!result.closures.empty()) result.contradictsGraph = false;
+    return result;
 }
 
 }  // namespace
@@ -104,7 +114,7 @@ struct SubmapSlam::Impl {
         search =
             std::async(std::launch::async, [all = submaps, known = graph, slam = params] {
                 omp_set_num_threads(1);  // the front has the others
-                return closuresOf(all, known, slam);
+                return compareNewest(all, known, slam);
             });
     }
 
@@ -127,7 +137,10 @@ struct SubmapSlam::Impl {
     }
 
     void enterClosures() {
-        if (search.valid()) closures += pool.enter(search.get(), graph);
+        if (!search.valid()) return;
+        Compared compared = search.get();
+        if (compared.contradictsGraph) doubtOdometryTo(submaps.size() - 1, graph);
+        closures += pool.enter(std::move(compared.closures), graph);
     }
 
     bool isFinished() const {
@@ -173,7 +186,7 @@ struct SubmapSlam::Impl {
     ClosurePool pool;
     std::vector<SharedSubmap> submaps;
     std::shared_ptr<const Map> earlier;  // that the session was found in
-    std::future<std::vector<PoseEdge>> search;
+    std::future<Compared> search;
     std::size_t closures = 0;
 
     Submap current;

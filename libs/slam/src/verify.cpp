@@ -12,7 +12,10 @@ namespace {
 constexpr std::size_t kMaxGuesses = 400;
 constexpr std::size_t kAligned = 4;        // guesses that are aligned, the best
 constexpr std::size_t kRatedPoints = 150;  // components that rate a guess
-constexpr double kGuessSigmas = 2.0;       // of the graph's uncertainty that guesses span
+/// A graph that is this sure of a pose [m], [rad] is wrong if so much of what one of the
+/// submaps shows lies in what the other saw to be free [1].
+constexpr double kSure_m = 0.5, kSure_rad = 0.1, kElsewhere = 0.15;
+constexpr double kGuessSigmas = 2.0;  // of the graph's uncertainty that guesses span
 
 /// Steps of at most `step` over +-extent, about 0.
 std::vector<double> lattice(double extent, double step) {
@@ -112,6 +115,19 @@ void ClosureParams::validate() const {
     require(bend_m > 0, "bend_m: must be positive");
     require(bend_rad > 0, "bend_rad: must be positive");
     registration.validate();
+}
+
+bool contradicts(const FinishedSubmap& target, const FinishedSubmap& source,
+                 const UncertainPose& T_target_source) {
+    const Matrix6d& covariance = T_target_source.covariance;
+    if (covariance.bottomRightCorner<3, 3>().diagonal().maxCoeff() > kSure_m * kSure_m ||
+        covariance.topLeftCorner<3, 3>().diagonal().maxCoeff() > kSure_rad * kSure_rad)
+        return false;
+    const Pose& T = T_target_source.T_a_b;
+    const Agreement there = agreementOf(target.submap.map, source.shape.surfaces_submap, T);
+    const Agreement back =
+        agreementOf(source.submap.map, target.shape.surfaces_submap, T.inverse());
+    return std::max(there.contradicted, back.contradicted) > kElsewhere;
 }
 
 std::optional<UncertainPose> verifiedPose(const FinishedSubmap& target,

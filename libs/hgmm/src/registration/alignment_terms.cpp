@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "registration/grazing_samples.h"
+
 namespace hgmm {
 
 namespace {
@@ -47,12 +49,14 @@ struct PlacedSample {
     Eigen::Vector3d arm;  ///< from the sensor, in the target's axes [m]
     Eigen::Vector3d point;
     Eigen::Matrix3d covariance;
-    bool planar;  ///< of a planar laser
+    bool planar;   ///< of a planar laser
+    bool grazing;  ///< areGrazing
 };
 
 PlacedSample placed(const AlignmentSamples& samples, std::size_t i, const Pose& T) {
     const Eigen::Vector3d arm = T.R * samples.mean[i];
-    return {arm, arm + T.t, T.R * samples.covariance[i] * T.R.transpose(), samples.planar};
+    return {arm, arm + T.t, T.R * samples.covariance[i] * T.R.transpose(), samples.planar,
+            samples.grazing[i]};
 }
 
 /// Adds the terms of one pair; returns their gradient.
@@ -66,6 +70,9 @@ Vector6d addPair(const SurfacePatch<3>& patch, const PlacedSample& sample,
         if (!(hold > 0.0)) continue;
         const Eigen::Map<const Eigen::Vector3f> axis(patch.axes[a].data());
         const Eigen::Vector3d n = axis.cast<double>();
+        if (sample.grazing &&
+            std::abs(n.dot(sample.arm)) > kGrazingSine * sample.arm.norm())
+            continue;
         const double std_m =
             a == 0 ? double(patch.normalStd_m) : double(patch.halfEdge[a]) / kPatchSigmas;
         const double variance_m2 =

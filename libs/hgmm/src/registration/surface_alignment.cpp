@@ -8,6 +8,7 @@
 #include <unordered_set>
 
 #include "registration/alignment_terms.h"
+#include "registration/grazing_samples.h"
 
 namespace hgmm {
 
@@ -218,6 +219,7 @@ AlignmentSamples::AlignmentSamples(const Mixture<3>& samples_sensor,
         if (kept.size() <= most) break;
     }
     if (kept.empty()) return;
+    grazing = areGrazing(samples_sensor, kept);
     Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
     for (const std::size_t i : kept) {
         const Gaussian<3> g = samples_sensor[i];

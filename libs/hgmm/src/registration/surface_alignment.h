@@ -22,6 +22,7 @@ struct AlignmentSamples {
 
     std::vector<Eigen::Vector3d> mean;                 ///< in the sensor frame [m]
     std::vector<Eigen::Matrix3d> covariance;           ///< [m^2]
+    std::vector<bool> grazing;                         ///< areGrazing
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the means [m]
     /// As of RegistrationSource: a small rotation w about the centre moves the samples by
     /// |gyrationRadii w|, rms [m].
@@ -58,9 +59,11 @@ struct SurfaceAlignment {
 /// prior's deviation to the thickness of the surfaces.
 ///
 /// A patch holds a sample across itself, with the variances of both, and lets it slide
-/// along; the line that a planar laser drew holds across both of its thin axes.
-/// Directions that the surfaces do not hold are left to the prior (solution remapping,
-/// Zhang and Singh 2016). Does not depend on the number of threads.
+/// along; the line that a planar laser drew holds across both of its thin axes. A patch
+/// that faces the sensor does not hold a sample whose ray grazes its surface: it is not
+/// what the ray met, but what the pattern of rays drew. Directions that the surfaces do not
+/// hold are left to the prior (solution remapping, Zhang and Singh 2016). Does not depend
+/// on the number of threads.
 SurfaceAlignment alignToSurfaces(const PatchTree<3>& target,
                                  const AlignmentSamples& samples,
                                  const AlignmentPrior& prior);

@@ -20,6 +20,11 @@ constexpr SearchRadius kFound{0.1, 0.02};
 constexpr std::size_t kAskedSamples = 200;
 /// P(free) of such space.
 constexpr float kSurelyFree = 0.8F;
+/// P(unknown) of what may lie behind a surface.
+constexpr float kUnknown = 0.5F;
+/// A surface lies before a point if it is nearer than this share of its range, less this
+/// [m].
+constexpr double kBeforePoint = 0.9, kBeforePoint_m = 0.2;
 
 /// Places are looked at as far as this share of the samples' distance from the sensor, and
 /// no nearer and no farther than this [m].
@@ -86,16 +91,38 @@ PoseHypothesis ScanAlignment::aligned(const PoseEstimate& prior, const SearchRad
     return hypothesis;
 }
 
-double ScanAlignment::shareInFreeSpace(const Pose& T_map_sensor) const {
-    if (asked_.size() == 0) return 0.0;
+std::vector<Eigen::Vector3d> ScanAlignment::askedPoints(const Pose& T_map_sensor) const {
     std::vector<Eigen::Vector3d> points_map;
     for (const Eigen::Vector3d& m : asked_.mean)
         points_map.push_back(T_map_sensor.R * m + T_map_sensor.t);
+    return points_map;
+}
+
+double ScanAlignment::shareInFreeSpace(const Pose& T_map_sensor) const {
+    if (asked_.size() == 0) return 0.0;
+    const std::vector<Eigen::Vector3d> points_map = askedPoints(T_map_sensor);
     std::vector<Occupancy> answers(points_map.size());
     map_.occupancy(points_map.data(), points_map.size(), answers.data());
     const auto inFree = std::count_if(answers.begin(), answers.end(),
                                       [](const auto& a) { return a.free > kSurelyFree; });
     return double(inFree) / double(asked_.size());
+}
+
+double ScanAlignment::shareBehindSurfaces(const Pose& T_map_sensor) const {
+    if (asked_.size() == 0) return 0.0;
+    const std::vector<Eigen::Vector3d> points_map = askedPoints(T_map_sensor);
+    int behind = 0;
+#pragma omp parallel for schedule(dynamic, 16) reduction(+ : behind)
+    for (std::int64_t k = 0; k < static_cast<std::int64_t>(points_map.size()); ++k) {
+        const Eigen::Vector3d& point_map = points_map[static_cast<std::size_t>(k)];
+        if (map_.occupancy(point_map).unknown < kUnknown) continue;
+        const Eigen::Vector3d ray = point_map - T_map_sensor.t;
+        RayCastParams upToPoint;
+        upToPoint.maxRange_m = kBeforePoint * ray.norm() - kBeforePoint_m;
+        if (upToPoint.maxRange_m > 0.0 && map_.castRay(T_map_sensor.t, ray, upToPoint))
+            ++behind;
+    }
+    return double(behind) / double(asked_.size());
 }
 
 std::optional<PoseHypothesis> ScanAlignment::farther(const PoseEstimate& prior) const {
@@ -148,7 +175,8 @@ PoseHypothesis ScanAlignment::refined(const PoseHypothesis& hypothesis,
 }
 
 std::optional<std::size_t> clearlyBest(const std::vector<PoseHypothesis>& hypotheses,
-                                       const Pose& prior, const SearchRadius& off) {
+                                       const Pose& prior, const SearchRadius& off,
+                                       bool priorIsVague) {
     std::vector<double> squared, rated;  // deviations from the prior; scores
     for (const PoseHypothesis& h : hypotheses) {
         const double shift = (h.T_map_sensor.t - prior.t).norm() / off.width_m;
@@ -163,9 +191,10 @@ std::optional<std::size_t> clearlyBest(const std::vector<PoseHypothesis>& hypoth
     for (std::size_t k = 0; k < hypotheses.size(); ++k)
         if (rated[k] >= enough && (best == hypotheses.size() || squared[k] < squared[best]))
             best = k;
-    if (squared[best] < 1.0) return best;
+    if (squared[best] < 1.0 && !priorIsVague) return best;
+    const double rivals = kRivalSquared * std::max(squared[best], 1.0);
     for (std::size_t k = 0; k < hypotheses.size(); ++k)
-        if (rated[k] >= enough && squared[k] < kRivalSquared * squared[best] &&
+        if (rated[k] >= enough && squared[k] < rivals &&
             !areOnePlace(hypotheses[k].T_map_sensor, hypotheses[best].T_map_sensor))
             return {};
     return best;

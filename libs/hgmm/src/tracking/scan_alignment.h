@@ -40,6 +40,8 @@ class ScanAlignment {
     /// A rough pose, aligned well.
     PoseHypothesis refined(const PoseHypothesis& hypothesis,
                            const PoseEstimate& prior) const;
+    /// Share of the samples that are seen through surfaces of the map, [0, 1].
+    double shareBehindSurfaces(const Pose& T_map_sensor) const;
 
  private:
     PoseHypothesis aligned(const PoseEstimate& prior, const SearchRadius& off,
@@ -47,6 +49,7 @@ class ScanAlignment {
     /// Of a prior that may be off by more.
     Registration::Covariance widened(const Registration::Covariance& covariance,
                                      const SearchRadius& by) const;
+    std::vector<Eigen::Vector3d> askedPoints(const Pose& T_map_sensor) const;
     double shareInFreeSpace(const Pose& T_map_sensor) const;
 
     const Map& map_;
@@ -59,7 +62,9 @@ class ScanAlignment {
 /// Of some hypotheses the nearest to the prior that fits about as well as any; none, where
 /// it is far from the prior and another place fits as well that is hardly farther.
 /// @param hypotheses at least one
+/// @param priorIsVague other places that fit as well count wherever they are
 std::optional<std::size_t> clearlyBest(const std::vector<PoseHypothesis>& hypotheses,
-                                       const Pose& prior, const SearchRadius& off);
+                                       const Pose& prior, const SearchRadius& off,
+                                       bool priorIsVague);
 
 }  // namespace hgmm

@@ -31,6 +31,13 @@ constexpr double kSurprising = 2.0;
 constexpr double kBetterBy = 0.05;
 /// A doubtful pose is believed if it explains so much of the scan [1].
 constexpr double kConvincing = 0.2;
+/// A scan that suddenly contradicts the map so much more than the last one that was not
+/// lost, in free space and behind surfaces, is seen from elsewhere, whatever else fits [1].
+/// Half as much does for the next ones, and after a gap.
+constexpr double kAbrupt = 0.2;
+/// After a gap in which the sensor may have come farther than this, one of several places
+/// that fit alike is not taken for being near [m].
+constexpr double kVague_m = 0.5;
 /// A motion is not guessed to go on for longer than this [s].
 constexpr double kLongestGuess_s = 1.0;
 /// Odometry that recognises no scan so often in a row goes on from the prior in a new map
@@ -51,6 +58,7 @@ SearchRadius narrower(const SearchRadius& a, const SearchRadius& b) {
 struct FoundPose {
     PoseHypothesis best;
     bool isBelieved = false;
+    double conflict = 0.0;  ///< share of the scan in free space or behind surfaces
 };
 
 void requireCovariance(const Registration::Covariance& covariance, const char* what) {
@@ -65,16 +73,6 @@ SearchRadius wider(const SearchRadius& a, const SearchRadius& b) {
 }
 
 }  // namespace
-
-void TrackerParams::validate() const {
-    requireInRange("firstDeviation_m", firstDeviation_m, 1e-3, 1e3);
-    requireInRange("firstDeviation_rad", firstDeviation_rad, 1e-4, 1.0);
-    requireInRange("maxSamples", maxSamples, 50, 1e7);
-    requireInRange("minOverlap", minOverlap, 1e-6, 1.0);
-    requireInRange("insertEvery_m", insertEvery_m, 0.0, 1e3);
-    requireInRange("insertEvery_rad", insertEvery_rad, 0.0, 7.0);
-    requireInRange("mapRadius_m", mapRadius_m, 1.0, 1e6);
-}
 
 struct ScanTracker::Impl {
     Impl(const MapParams& mapParams, const TrackerParams& trackerParams,
@@ -106,7 +104,11 @@ struct ScanTracker::Impl {
     bool isDoubtful(const PoseHypothesis& found, const PoseEstimate& prior) const;
     /// Whether the sensor is not lost.
     bool isBelieved(const PoseHypothesis& found, const PoseEstimate& prior) const;
-    FoundPose find(const PoseEstimate& prior) const;
+    bool isAbrupt(double share, double most) const {
+        return !given && conflict && share > *conflict + most;
+    }
+    /// @param vague the sensor may have come far since the last scan
+    FoundPose find(const PoseEstimate& prior, bool vague) const;
     void renewTarget();
     /// A map of the last scan alone. Returns whether it is in it.
     bool beginAnew();
@@ -115,10 +117,12 @@ struct ScanTracker::Impl {
     PoseEstimate pose;             ///< of the last scan
     std::optional<double> time_s;  ///< of the last scan
     std::optional<Velocity> velocity;
+    SearchRadius fastest{0.0, 0.0};  ///< so far [m/s], [rad/s]: one that stands may go on
     PriorDeviation deviation;
-    double overlap = 0.0;  ///< of the last scan
-    int lostInARow = 0;    ///< scans that hold points
-    ScanSamples samples;   ///< of the last scan
+    double overlap = 0.0;            ///< of the last scan
+    std::optional<double> conflict;  ///< FoundPose::conflict of the last scan not lost
+    int lostInARow = 0;              ///< scans that hold points
+    ScanSamples samples;             ///< of the last scan
     LocalMap local;
     std::shared_ptr<const Map> given;  ///< null: odometry
     std::unique_ptr<PatchTree<3>> target;
@@ -162,8 +166,7 @@ PoseEstimate ScanTracker::Impl::predict(
 SearchRadius ScanTracker::Impl::unknownSince(double time) const {
     if (!velocity) return {params.firstDeviation_m, params.firstDeviation_rad};
     const double notGuessed_s = std::max(0.0, sinceLast(time) - kLongestGuess_s);
-    return {notGuessed_s * velocity->linear.norm(),
-            notGuessed_s * velocity->angular.norm()};
+    return {notGuessed_s * fastest.width_m, notGuessed_s * fastest.angle_rad};
 }
 
 bool ScanTracker::Impl::isBelieved(const PoseHypothesis& found,
@@ -187,24 +190,37 @@ SearchRadius ScanTracker::Impl::searchRadius(const PoseEstimate& prior) const {
     return wider(deviation.now(), deviationOf(prior.covariance));
 }
 
-FoundPose ScanTracker::Impl::find(const PoseEstimate& prior) const {
+FoundPose ScanTracker::Impl::find(const PoseEstimate& prior, bool vague) const {
     const ScanAlignment alignment(map(), *target, samples,
                                   static_cast<std::size_t>(params.maxSamples));
     const SearchRadius off = searchRadius(prior);
-    PoseHypothesis best = alignment.near(prior, narrower(off, kNearest));
-    if (!isDoubtful(best, prior)) return {best, isBelieved(best, prior)};
-    std::vector<PoseHypothesis> all{best};
+    const double abrupt = vague || lostInARow > 0 ? 0.5 * kAbrupt : kAbrupt;
+    const auto judged = [&](const PoseHypothesis& at) {
+        const double share =
+            given ? 0.0 : at.contradicted + alignment.shareBehindSurfaces(at.T_map_sensor);
+        return FoundPose{at, isBelieved(at, prior) && !isAbrupt(share, abrupt), share};
+    };
+    const auto isClear = [&](const FoundPose& found) {
+        return !vague && !isAbrupt(found.conflict, abrupt) &&
+               !isDoubtful(found.best, prior);
+    };
+    FoundPose found = judged(alignment.near(prior, narrower(off, kNearest)));
+    if (isClear(found)) return found;
+    std::vector<PoseHypothesis> all{found.best};
     if (const auto farther = alignment.farther(prior)) {
         all.push_back(*farther);
-        if (farther->score() > best.score() + kBetterBy) best = *farther;
+        if (farther->score() > found.best.score() + kBetterBy) found = judged(*farther);
     }
-    if (given || !isDoubtful(best, prior)) return {best, isBelieved(best, prior)};
+    if (given || isClear(found)) return found;
     const std::size_t precise = all.size();
     for (const PoseHypothesis& rough : alignment.farAround(prior)) all.push_back(rough);
-    const auto chosen = clearlyBest(all, prior.T_map_sensor, off);
-    if (!chosen) return {best, false};
-    best = *chosen < precise ? all[*chosen] : alignment.refined(all[*chosen], prior);
-    return {best, isBelieved(best, prior)};
+    const auto chosen = clearlyBest(all, prior.T_map_sensor, off, vague);
+    if (!chosen) {
+        found.isBelieved = false;
+        return found;
+    }
+    return judged(*chosen < precise ? all[*chosen]
+                                    : alignment.refined(all[*chosen], prior));
 }
 
 void ScanTracker::Impl::renewTarget() {
@@ -214,6 +230,11 @@ void ScanTracker::Impl::renewTarget() {
 bool ScanTracker::Impl::beginAnew() {
     lostInARow = 0;
     overlap = 0.0;
+    conflict.reset();
+    // Odometry may not have noticed that the sensor was carried away.
+    const SearchRadius unknown{2.0 * params.firstDeviation_m,
+                               2.0 * params.firstDeviation_rad};
+    pose.covariance += inPlaneOfRays(covarianceOf(unknown), samples.normalOfRays_sensor);
     local.clear();
     const bool isIn = local.insert(samples, pose.T_map_sensor);
     renewTarget();
@@ -253,21 +274,26 @@ TrackedPose ScanTracker::track(const Scan& scan, double time_s,
     TrackedPose now;
     static_cast<PoseEstimate&>(now) = prior;
     if (!t.map().empty()) {
-        const auto [found, isBelieved] = t.find(prior);
+        const bool vague = !odometry && t.unknownSince(time_s).width_m > kVague_m;
+        const auto [found, isBelieved, conflict] = t.find(prior, vague);
         now.overlap = found.overlap;
         now.contradicted = found.contradicted;
         now.observable = found.observable;
         now.lost = !isBelieved;
         if (!now.lost) {
             static_cast<PoseEstimate&>(now) = found;
+            t.conflict = conflict;
             t.deviation.learn(prior.T_map_sensor, now.T_map_sensor);
         }
     }
     if (now.lost)
         t.velocity.reset();
-    else if (t.time_s && duration_s > 0.0)
+    else if (t.time_s && duration_s > 0.0) {
         t.velocity =
             Velocity::of(t.pose.T_map_sensor.inverse() * now.T_map_sensor, duration_s);
+        t.fastest =
+            wider(t.fastest, {t.velocity->linear.norm(), t.velocity->angular.norm()});
+    }
     t.pose = now;
     t.time_s = time_s;
     t.overlap = now.overlap;
@@ -276,7 +302,10 @@ TrackedPose ScanTracker::track(const Scan& scan, double time_s,
         t.renewTarget();
     }
     t.lostInARow = now.lost && !t.samples.samples_sensor.empty() ? t.lostInARow + 1 : 0;
-    if (!t.given && t.lostInARow >= kAnewAfter) now.inserted = t.beginAnew();
+    if (!t.given && t.lostInARow >= kAnewAfter) {
+        now.inserted = t.beginAnew();
+        now.covariance = t.pose.covariance;
+    }
     return now;
 }
 

@@ -75,6 +75,11 @@ std::optional<UncertainPose> verifiedPose(const FinishedSubmap& target,
                                           const UncertainPose& T_target_source,
                                           const ClosureParams& params);
 
+/// Whether two submaps cannot lie as the graph, which is sure of it, has them: much of one
+/// is in space that the other saw to be free. The robot was carried away, or lost its way.
+bool contradicts(const FinishedSubmap& target, const FinishedSubmap& source,
+                 const UncertainPose& T_target_source);
+
 /// The largest set of closures that agree with each other, pair by pair (pairwise
 /// consistency maximisation: Mangelson et al. 2018, by greedy search): the loop through two
 /// of them and the graph between must close within chi-square at .999.

@@ -29,6 +29,10 @@ struct PoseGraph {
     std::vector<PoseEdge> edges;  ///< node i + 1 has an odometry edge from node i
 };
 
+/// Makes the odometry edge to a node a guess, for its other edges to hold it; of no effect
+/// without one.
+void doubtOdometryTo(std::size_t node, PoseGraph& graph);
+
 struct OptimisationParams {
     /// Closures that are off by more than this count less and less (Cauchy's kernel): a
     /// squared Mahalanobis distance of 6 is to be expected [sigma], > 0.
