@@ -13,7 +13,7 @@ namespace {
 
 using test::uniform;
 
-const Pose kSensor{Eigen::Matrix3d::Identity(), {0.31, -0.17, 0.23}};
+const Pose kMarkingSensor{Eigen::Matrix3d::Identity(), {0.31, -0.17, 0.23}};
 
 /// What the rays to hits mark together, and what each marks alone.
 struct Marks {
@@ -24,16 +24,17 @@ struct Marks {
         const Coverage::Rays rays({}, raySpacing_rad, Eigen::Vector3d::Zero());
         for (const Eigen::Vector3d& hit : hits) {
             samples.pushBack({1.0, hit, Eigen::Matrix3d::Identity() * 1e-4});
-            alone.markRay(kSensor.t, samples.meanAt(samples.size() - 1), true, rays);
+            alone.markRay(kMarkingSensor.t, samples.meanAt(samples.size() - 1), true, rays);
         }
         ScanSamples scan;
         scan.raySpacing_rad = raySpacing_rad;
-        markRays(samples, scan, kSensor, {}, together);
+        markRays(samples, scan, kMarkingSensor, {}, together);
     }
 };
 
 Eigen::Vector3d hitAt(double range_m, double a, double b) {
-    return kSensor.t + range_m * Eigen::Vector3d(1, std::tan(a), std::tan(b)).normalized();
+    return kMarkingSensor.t +
+           range_m * Eigen::Vector3d(1, std::tan(a), std::tan(b)).normalized();
 }
 
 TEST(MarkRays, WalksRaysThatAreFarApartWhole) {
@@ -42,7 +43,7 @@ TEST(MarkRays, WalksRaysThatAreFarApartWhole) {
         for (int y = -1; y <= 1; ++y)
             for (int z = -1; z <= 1; ++z)
                 if (x != 0 || y != 0 || z != 0)
-                    hits.push_back(kSensor.t +
+                    hits.push_back(kMarkingSensor.t +
                                    (9 + x + y) *
                                        Eigen::Vector3d(x, y + 0.1, z).normalized());
     const Marks marks(hits, 0.02);
