@@ -245,6 +245,8 @@ PoseFile readPoseFile(const std::string& path) {
                 continue;
             }
             const auto numbers = evaluation::parseNumbers(text);
+            // What parseNumbers takes for a space may be all that there is.
+            if (numbers.empty()) continue;
             if (columns != 0 && numbers.size() != columns)
                 throw std::runtime_error("expected " + std::to_string(columns) +
                                          " numbers as in the lines before, got " +
