@@ -22,17 +22,18 @@ build() {
     mkdir -p build-fuzz/findings
 }
 
-# fuzz NAME SECONDS: sets executions, edges and findings.
+# fuzz NAME SECONDS: sets executions, edges, findings and how long it ran.
 fuzz() {
     local name=$1 seconds=$2 said=build-fuzz/said-$1
     mkdir -p "build-fuzz/corpus/$name"
-    findings=0
+    findings=0 spent=$SECONDS
     OMP_NUM_THREADS=1 nice -n 19 "build-fuzz/fuzz/fuzz-$name" -max_total_time="$seconds" -timeout=30 \
         -rss_limit_mb=2048 -print_final_stats=1 -artifact_prefix="build-fuzz/findings/$name-" \
         "build-fuzz/corpus/$name" "tests/fuzz/corpus/$name" >"$said" 2>&1 || findings=1
+    spent=$((SECONDS - spent))
     executions=$(awk '/stat::number_of_executed_units/ { print $2 }' "$said")
     edges=$(sed -nE 's/.* cov: ([0-9]+) .*/\1/p' "$said" | tail -1)
-    printf '%-16s %8s s %10s executions %6s edges, %s\n' "$name" "$seconds" "${executions:-0}" "${edges:-0}" \
+    printf '%-16s %8s s %10s executions %6s edges, %s\n' "$name" "$spent" "${executions:-0}" "${edges:-0}" \
         "$( ((findings)) && echo "A FINDING: $said" || echo 'no finding')"
 }
 
@@ -47,7 +48,7 @@ case ${1:-} in
         build ON "$@"
         for name in "$@"; do
             fuzz "$name" "$seconds"
-            note "$name" "$seconds" "${executions:-0}" "${edges:-0}" "$findings"
+            note "$name" "$spent" "${executions:-0}" "${edges:-0}" "$findings"
             found=$((found + findings))
         done
         ;;
