@@ -45,7 +45,7 @@ for recording in "${recordings[@]}"; do
         { echo "$recording failed: $(tail -n 1 "$folder/progress")"; failed=1; continue; }
     echo "$recording: $(head -n 1 "$folder/log")"
     [[ -f ${poses:-} ]] &&
-        scripts/trajectory_error.py "$folder/trajectory.tum" "$poses" |
+        /usr/bin/python3 scripts/trajectory_error.py "$folder/trajectory.tum" "$poses" |
         awk '{ printf("  %d poses, ATE %s m (largest %s m), rotation %s deg (largest %s deg), way %s m\n", $1, $2, $3, $4, $5, $6) }'
     [[ $recording != telecom ]] || tail -n 1 "$folder/trajectory.tum" | awk '{
         yaw = atan2(2 * $8 * $7, 1 - 2 * $7 * $7) * 57.29578

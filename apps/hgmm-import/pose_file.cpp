@@ -231,7 +231,7 @@ PoseFile readPoseFile(const std::string& path) {
     for (std::string text; std::getline(in, text);) {
         ++number;
         std::replace(text.begin(), text.end(), ',', ' ');
-        const auto first = text.find_first_not_of(" \t\r");
+        const auto first = text.find_first_not_of(" \t\r\v\f");  // what parseNumbers skips
         if (first == std::string::npos) continue;
         text.erase(0, first);
         try {
@@ -245,8 +245,6 @@ PoseFile readPoseFile(const std::string& path) {
                 continue;
             }
             const auto numbers = evaluation::parseNumbers(text);
-            // What parseNumbers takes for a space may be all that there is.
-            if (numbers.empty()) continue;
             if (columns != 0 && numbers.size() != columns)
                 throw std::runtime_error("expected " + std::to_string(columns) +
                                          " numbers as in the lines before, got " +

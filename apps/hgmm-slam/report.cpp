@@ -20,6 +20,7 @@ constexpr double kSide = 1000.0;      // of the drawing, the longer one [px]
 constexpr double kText = 90.0;        // height of what is written above it [px]
 constexpr double kTextWidth = 740.0;  // of it, at most [px]
 constexpr double kMargin = 20.0;      // [px]
+constexpr double kAbout = 0.02;       // of the extent, about all that is drawn
 constexpr double kTail = 0.05;        // share of surfaces that may lie beyond, on each side
 constexpr double kPatchReach = 1.7;   // half length of a patch [sigma]
 
@@ -87,7 +88,11 @@ class Paper {
                                        y_map.rbegin()[std::ptrdiff_t(tail)]));
         }
         if (box.isEmpty()) box.extend(Eigen::Vector2d::Zero());
-        const double extent_m = std::max(box.sizes().maxCoeff(), 1.0);
+        // So that what lies at its border is drawn whole.
+        const Eigen::Vector2d about =
+            Eigen::Vector2d::Constant(std::max(0.5, kAbout * box.sizes().maxCoeff()));
+        box = {box.min() - about, box.max() + about};
+        const double extent_m = box.sizes().maxCoeff();
         scale_ = kSide / extent_m;
         corner_map_ = {box.min().x(), box.max().y()};
         size_ = scale_ * box.sizes().cwiseMax(0.3 * extent_m);

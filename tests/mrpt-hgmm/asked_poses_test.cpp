@@ -11,8 +11,10 @@
 #include <thread>
 #include <vector>
 
+#include "copy_through_archive.h"
 #include "observations.h"
 
+using archives::copyThroughArchive;
 using mrpt::maps::CHGMMOccupancyMap;
 using mrpt::obs::CObservation2DRangeScan;
 using mrpt::poses::CPose3D;
@@ -158,14 +160,6 @@ TEST(AskedPoses, KernelIsOneForAllPosesInAnyOrderAndThread) {
     };
     askInTwoThreads(1, before);
     EXPECT_EQ(askInTwoThreads(2, poses), expected);
-}
-
-/// As MRPT copies the maps of particles.
-CHGMMOccupancyMap::Ptr copyThroughArchive(const CHGMMOccupancyMap& map) {
-    mrpt::maps::CMultiMetricMap original;
-    original.maps.push_back(CHGMMOccupancyMap::Create(map));
-    const mrpt::maps::CMultiMetricMap copy = original;
-    return copy.mapByClass<CHGMMOccupancyMap>();
 }
 
 TEST(AskedPoses, CopiesOfAMapKnowWhatItKnows) {

@@ -7,8 +7,10 @@
 #include <limits>
 #include <thread>
 
+#include "copy_through_archive.h"
 #include "observations.h"
 
+using archives::copyThroughArchive;
 using mrpt::maps::CHGMMOccupancyMap;
 using mrpt::poses::CPose3D;
 
@@ -210,6 +212,37 @@ TEST(Likelihood, CopiesFollowTheirOwnMap) {
     fresh.model() = map.model();
     EXPECT_EQ(late.computeObservationLikelihood(*scan, moved),
               fresh.computeObservationLikelihood(*scan, moved));
+}
+
+// MRPT copies the maps of particles through archives: the copy takes over the surfaces that
+// the original has ready, and neither sees what the other inserts afterwards.
+TEST(Likelihood, CopiesThroughArchivesFollowTheirOwnMap) {
+    const auto scan = observations::laser();
+    const CPose3D moved(0.1, 0.05, 0.2, 0.1, 0, 0);
+    CHGMMOccupancyMap map = roomMap();
+    map.likelihoodOptions.kernelWidth_m = 0.1;  // one for all that is asked here
+    const auto fresh = [&](const CHGMMOccupancyMap& like) {
+        CHGMMOccupancyMap anew;
+        anew.model() = like.model();
+        anew.likelihoodOptions = like.likelihoodOptions;
+        return anew.computeObservationLikelihood(*scan, moved);
+    };
+    const double before = map.computeObservationLikelihood(*scan, moved);
+    const auto copy = copyThroughArchive(map), changed = copyThroughArchive(map);
+    EXPECT_EQ(copy->computeObservationLikelihood(*scan, moved), before);
+    map.insertObservation(*scan, moved);
+    EXPECT_GT(map.computeObservationLikelihood(*scan, moved), before);
+    EXPECT_EQ(copy->computeObservationLikelihood(*scan, moved), before);
+    changed->insertObservation(*scan, CPose3D(0.2, 0, 0.2, 0, 0, 0));
+    EXPECT_EQ(changed->computeObservationLikelihood(*scan, moved), fresh(*changed));
+    EXPECT_EQ(copy->computeObservationLikelihood(*scan, moved), before);
+    EXPECT_EQ(map.computeObservationLikelihood(*scan, moved), fresh(map));
+    // Copied while it is out of date.
+    map.insertObservation(*scan, CPose3D(0.3, 0, 0.2, 0, 0, 0));
+    const auto late = copyThroughArchive(map);
+    EXPECT_EQ(late->computeObservationLikelihood(*scan, moved), fresh(map));
+    map.insertObservation(*scan, CPose3D(0.3, 0.1, 0.2, 0, 0, 0));
+    EXPECT_EQ(map.computeObservationLikelihood(*scan, moved), fresh(map));
 }
 
 // pf-localization's repetitions share one map between threads.

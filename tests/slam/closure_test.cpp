@@ -131,6 +131,24 @@ TEST(Closure, AgreementCountsSurfacesByTheirSize) {
     const Agreement agreement = agreementOf(submap.submap.map, wallAndPost, {});
     EXPECT_LT(agreement.overlap, 0.3);
     EXPECT_GT(agreement.contradicted, 0.5);
+    EXPECT_LT(agreement.contradictedComponents, agreement.contradicted);
+}
+
+TEST(Closure, SmallThingsWhereTheOtherSawNoneTellByTheirNumber) {
+    const FinishedSubmap submap = submapOf(ringCorridor(), posesAlong(-6, -1, -6, 0.0));
+    Mixture<3> withPosts = submap.shape.surfaces_submap;
+    const std::size_t posts = withPosts.size() / 4;
+    for (std::size_t k = 0; k < posts; ++k) {
+        Gaussian<3> post;
+        post.support = 100;
+        post.mean = Eigen::Vector3d(0.5 + 3.0 * double(k) / double(posts), 0, 0);
+        post.covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-4).asDiagonal();
+        withPosts.pushBack(post);
+    }
+    const Agreement agreement = agreementOf(submap.submap.map, withPosts, {});
+    EXPECT_LT(agreement.contradicted, 0.06);
+    EXPECT_NEAR(agreement.contradictedComponents, double(posts) / double(withPosts.size()),
+                0.01);
 }
 
 TEST(Closure, AGraphThatIsSureOfWhatCannotBeIsContradicted) {

@@ -15,24 +15,14 @@ using namespace testing;
 
 /// The corridor of ringCorridor() with other pillars: what another building looks like.
 Scene anotherCorridor() {
-    Scene scene;
-    for (const auto& [low, high] :
-         {std::pair{Eigen::Vector3d(-8, -8, -1), Eigen::Vector3d(8, -7.8, 2)},
-          {Eigen::Vector3d(-8, 7.8, -1), Eigen::Vector3d(8, 8, 2)},
-          {Eigen::Vector3d(-8, -8, -1), Eigen::Vector3d(-7.8, 8, 2)},
-          {Eigen::Vector3d(7.8, -8, -1), Eigen::Vector3d(8, 8, 2)},
-          {Eigen::Vector3d(-4, -4, -1), Eigen::Vector3d(4, 4, 2)}})
-        scene.add(evaluation::Box{low, high}, Part::wall);
-    for (const auto& [x, y] : {std::pair{-2.4, -4.7},
-                               {3.1, -5.0},
-                               {6.6, -5.6},
-                               {4.8, 1.4},
-                               {7.0, 3.1},
-                               {1.2, 4.9},
-                               {-5.4, 5.7},
-                               {-7.0, -0.3}})
-        scene.add(evaluation::Pillar{{x, y}, 0.3, -1.0, 2.0}, Part::pole);
-    return scene;
+    return ringCorridorWith({{-2.4, -4.7},
+                             {3.1, -5.0},
+                             {6.6, -5.6},
+                             {4.8, 1.4},
+                             {7.0, 3.1},
+                             {1.2, 4.9},
+                             {-5.4, 5.7},
+                             {-7.0, -0.3}});
 }
 
 /// A walk without drift, finished.
@@ -133,14 +123,7 @@ TEST(Continue, ASingleSubmapIsNotBelieved) {
 
 /// Four sides that look alike, without any pillar.
 TEST(Continue, ABuildingThatRepeatsItselfIsRefused) {
-    Scene scene;
-    for (const auto& [low, high] :
-         {std::pair{Eigen::Vector3d(-8, -8, -1), Eigen::Vector3d(8, -7.8, 2)},
-          {Eigen::Vector3d(-8, 7.8, -1), Eigen::Vector3d(8, 8, 2)},
-          {Eigen::Vector3d(-8, -8, -1), Eigen::Vector3d(-7.8, 8, 2)},
-          {Eigen::Vector3d(7.8, -8, -1), Eigen::Vector3d(8, 8, 2)},
-          {Eigen::Vector3d(-4, -4, -1), Eigen::Vector3d(4, 4, 2)}})
-        scene.add(evaluation::Box{low, high}, Part::wall);
+    const Scene scene = ringCorridorWith({});
     const std::vector<Pose> lap = walkAround(0.25, 1.0);
     const auto earlier = std::make_shared<const Map>(walked(scene, lap)->fusedMap());
     const Continuation continuation =

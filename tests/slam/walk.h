@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "hgmm/slam/submap_slam.h"
@@ -14,8 +15,8 @@ using evaluation::Part;
 using evaluation::Scene;
 using evaluation::SimulatedSensor;
 
-/// A corridor about a block, with pillars that are nowhere twice as far apart.
-inline Scene ringCorridor() {
+/// A corridor about a block, with pillars at (x, y).
+inline Scene ringCorridorWith(const std::vector<std::pair<double, double>>& pillars) {
     const auto box = [](double x0, double y0, double x1, double y1) {
         return evaluation::Box{{x0, y0, -1.0}, {x1, y1, 2.0}};
     };
@@ -23,19 +24,24 @@ inline Scene ringCorridor() {
     for (const auto& wall : {box(-8, -8, 8, -7.8), box(-8, 7.8, 8, 8), box(-8, -8, -7.8, 8),
                              box(7.8, -8, 8, 8), box(-4, -4, 4, 4)})
         scene.add(wall, Part::wall);
-    for (const auto& [x, y] : {std::pair{-6.0, -7.4},
-                               {1.5, -7.5},
-                               {5.2, -4.6},
-                               {7.3, -1.0},
-                               {7.2, 5.0},
-                               {4.5, 6.9},
-                               {-0.5, 7.5},
-                               {-3.1, 4.6},
-                               {-7.3, 3.5},
-                               {-4.5, -0.7},
-                               {-7.4, -3.0}})
+    for (const auto& [x, y] : pillars)
         scene.add(evaluation::Pillar{{x, y}, 0.2, -1.0, 2.0}, Part::pole);
     return scene;
+}
+
+/// The same with pillars that are nowhere twice as far apart.
+inline Scene ringCorridor() {
+    return ringCorridorWith({{-6.0, -7.4},
+                             {1.5, -7.5},
+                             {5.2, -4.6},
+                             {7.3, -1.0},
+                             {7.2, 5.0},
+                             {4.5, 6.9},
+                             {-0.5, 7.5},
+                             {-3.1, 4.6},
+                             {-7.3, 3.5},
+                             {-4.5, -0.7},
+                             {-7.4, -3.0}});
 }
 
 /// Poses once about the block, and a little farther, at steps of `step_m`.

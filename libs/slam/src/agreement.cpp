@@ -30,9 +30,14 @@ struct Rectangle {
     Eigen::Vector2d edges_m;
 };
 
+struct SurfacePoint {
+    Eigen::Vector3d position;
+    double ofComponent;  ///< its share of its component [1]
+};
+
 /// Points that lie evenly on surfaces: a wall counts by its size, however many components
 /// it has.
-std::vector<Eigen::Vector3d> pointsOn(const Mixture<3>& surfaces) {
+std::vector<SurfacePoint> pointsOn(const Mixture<3>& surfaces) {
     std::vector<Rectangle> rectangles;
     for (std::size_t i = 0; i < surfaces.size(); ++i) rectangles.emplace_back(surfaces[i]);
     const auto count = [&](double spacing_m) {
@@ -43,14 +48,15 @@ std::vector<Eigen::Vector3d> pointsOn(const Mixture<3>& surfaces) {
     };
     double spacing_m = kFinestSpacing_m;
     while (count(spacing_m) > std::max(kMostPoints, surfaces.size())) spacing_m *= M_SQRT2;
-    std::vector<Eigen::Vector3d> points;
+    std::vector<SurfacePoint> points;
     for (const Rectangle& r : rectangles) {
         const Eigen::Array2i n = r.cuts(spacing_m);
         for (int a = 0; a < n[0]; ++a)
             for (int b = 0; b < n[1]; ++b)
-                points.push_back(r.mean +
-                                 r.axes.col(0) * r.edges_m[0] * ((a + 0.5) / n[0] - 0.5) +
-                                 r.axes.col(1) * r.edges_m[1] * ((b + 0.5) / n[1] - 0.5));
+                points.push_back(
+                    {r.mean + r.axes.col(0) * r.edges_m[0] * ((a + 0.5) / n[0] - 0.5) +
+                         r.axes.col(1) * r.edges_m[1] * ((b + 0.5) / n[1] - 0.5),
+                     1.0 / n.prod()});
     }
     return points;
 }
@@ -65,14 +71,14 @@ double toleranceAt(double range_m, const MapParams& params) {
 
 Agreement agreementOf(const Map& target, const Mixture<3>& surfaces_source,
                       const Pose& T_target_source) {
-    const std::vector<Eigen::Vector3d> points_source = pointsOn(surfaces_source);
+    const std::vector<SurfacePoint> points_source = pointsOn(surfaces_source);
     const std::size_t n = points_source.size();
     Agreement agreement;
     if (n == 0) return agreement;
     std::vector<Eigen::Vector3d> points_target;
     std::vector<double> tolerances_m;
     for (std::size_t i = 0; i < n; ++i) {
-        const Eigen::Vector3d& point_source = points_source[i];
+        const Eigen::Vector3d& point_source = points_source[i].position;
         points_target.push_back(T_target_source.R * point_source + T_target_source.t);
         const double range_m = std::max(point_source.norm(), points_target.back().norm());
         tolerances_m.push_back(toleranceAt(range_m, target.params()));
@@ -81,19 +87,26 @@ Agreement agreementOf(const Map& target, const Mixture<3>& surfaces_source,
     target.occupancy(points_target.data(), n, occupancies.data());
     std::vector<SurfaceDistance> distances(n);
     target.distance(points_target.data(), n, distances.data());
+    // Of points, by size; and of components, where a chair counts as much as a wall.
     std::size_t found = 0, seen = 0, contradicted = 0;
+    double seenComponents = 0.0, contradictedComponents = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
         const bool near =
             distances[i].answered() && distances[i].distance_m <= tolerances_m[i];
         const bool known = near || 1.0 - double(occupancies[i].unknown) > kSurelyKnown;
         found += near ? 1 : 0;
         seen += known ? 1 : 0;
-        contradicted += !near && double(occupancies[i].free) > kSurelyFree ? 1 : 0;
+        if (known) seenComponents += points_source[i].ofComponent;
+        if (near || !(double(occupancies[i].free) > kSurelyFree)) continue;
+        ++contradicted;
+        contradictedComponents += points_source[i].ofComponent;
     }
-    const auto share = [](std::size_t part, std::size_t whole) {
-        return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+    const auto share = [](double part, double whole) {
+        return whole > 0.0 ? part / whole : 0.0;
     };
-    return {share(found, n), share(found, seen), share(contradicted, seen)};
+    return {share(double(found), double(n)), share(double(found), double(seen)),
+            share(double(contradicted), double(seen)),
+            share(contradictedComponents, seenComponents)};
 }
 
 }  // namespace hgmm::slam

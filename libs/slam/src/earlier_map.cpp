@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
-#include <unordered_set>
 #include <utility>
 
+#include "hgmm/global_search.h"
 #include "vertical.h"
 
 namespace hgmm::slam {
@@ -19,33 +19,6 @@ constexpr std::size_t kRatedMost = 80;  // components that rate a place
 /// Poses nearer than this are one place.
 constexpr double kSamePlace_m = 0.5, kSamePlace_rad = 0.2;
 constexpr double kMargin_m = 0.5;  // about what a submap shows
-
-struct FreePositions {
-    std::vector<Eigen::Vector3d> positions_map;
-    double spacing_m = 0.0;
-};
-
-/// Means of free space, at most so many: the first of each cell of a grid that is as fine
-/// as it may be.
-FreePositions freePositionsOf(const Map& map, std::size_t most) {
-    constexpr double kFinest_m = 0.5, kOffset = 1 << 20;
-    const Mixture<4>& free = map.freeMixture();
-    for (double cell_m = kFinest_m;; cell_m *= M_SQRT2) {
-        FreePositions found{{}, cell_m};
-        std::unordered_set<std::uint64_t> taken;
-        for (std::size_t i = 0; i < free.size() && found.positions_map.size() <= most;
-             ++i) {
-            const Eigen::Vector3d p(free.mean[0][i], free.mean[1][i], free.mean[2][i]);
-            if (!(p.cwiseAbs().maxCoeff() / cell_m < kOffset)) continue;
-            std::uint64_t cell = 0;
-            for (int d = 0; d < 3; ++d)
-                cell = (cell << 21) +
-                       std::uint64_t(std::int64_t(std::floor(p[d] / cell_m) + kOffset));
-            if (taken.insert(cell).second) found.positions_map.push_back(p + map.origin());
-        }
-        if (found.positions_map.size() <= most) return found;
-    }
-}
 
 std::shared_ptr<const Map> notEmpty(std::shared_ptr<const Map> map) {
     if (!map || map->empty()) throw std::invalid_argument("earlier map: is empty");
@@ -158,10 +131,11 @@ EarlierMap::EarlierMap(std::shared_ptr<const Map> map, const EarlierMapParams& p
     : params_((params.validate(), params)),
       map_(notEmpty(std::move(map))),
       likelihood_(surfacesInMapFrame(*map_), kKernel_m, kOutlierRatio) {
-    FreePositions free =
+    const FreePositions free =
         freePositionsOf(*map_, static_cast<std::size_t>(params_.maxPositions));
     vertical_map_ = verticalOf(surfacesInMapFrame(*map_));
-    positions_map_ = std::move(free.positions_map);
+    for (const Eigen::Vector3d& position_local : free.positions_local)
+        positions_map_.push_back(position_local + map_->origin());
     spacing_m_ = free.spacing_m;
     if (0.7 * spacing_m_ > kKernel_m)
         likelihood_ =

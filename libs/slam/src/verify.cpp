@@ -87,7 +87,8 @@ bool holds(const Agreement& there, const Agreement& back, const ClosureParams& p
            std::min(there.overlap, back.overlap) >=
                params.minOverlapBack * params.minOverlap &&
            std::min(there.explained, back.explained) >= params.minExplained &&
-           std::max(there.contradicted, back.contradicted) <= params.maxContradicted;
+           std::max({there.contradicted, back.contradicted, there.contradictedComponents,
+                     back.contradictedComponents}) <= params.maxContradicted;
 }
 
 /// Registration's covariance, and what bends submaps; directions that surfaces do not hold

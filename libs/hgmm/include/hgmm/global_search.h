@@ -1,5 +1,8 @@
 #pragma once
+#include <Eigen/Core>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "hgmm/export.h"
 #include "hgmm/map.h"
@@ -21,6 +24,16 @@ struct GlobalSearchParams {
     /// Throws std::invalid_argument naming the field.
     HGMM_EXPORT void validate() const;
 };
+
+/// Where sensors may have been in a map, for rays passed there.
+struct FreePositions {
+    std::vector<Eigen::Vector3d> positions_local;  ///< from the map's origin [m]
+    double spacing_m = 0.0;  ///< edge of the cells they are taken from
+};
+
+/// Means of free space, at most `most`: the first of each cell of a grid that is as fine as
+/// it may be, .5 m at the finest.
+HGMM_EXPORT FreePositions freePositionsOf(const Map& map, std::size_t most);
 
 /// Looks for a sensor in a map, with nothing known but that the sensor is upright: its z
 /// axis is that of the map, give or take a few degrees. Positions are the means of free

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "hgmm/modality.h"
 #include "io/component_codec.h"
@@ -97,9 +98,9 @@ void getRecord(Reader& in, const Block& block, ChannelRecord& record) {
     }
 }
 
-}  // namespace
-
-void encodeChannels(const ChannelMixture& mixture, std::vector<std::uint8_t>& bytes) {
+/// Scales are those of the channels as they are.
+std::vector<std::uint8_t> encodedOnce(const ChannelMixture& mixture) {
+    std::vector<std::uint8_t> bytes;
     std::vector<ChannelScale> scales;
     Writer out(bytes);
     for (int c = 0; c < mixture.channels(); ++c) {
@@ -113,7 +114,10 @@ void encodeChannels(const ChannelMixture& mixture, std::vector<std::uint8_t>& by
         const ChannelGaussian g = mixture[i];
         putStable(bytes, block, ChannelRecord{g.place, g.fits, &scales});
     });
+    return bytes;
 }
+
+}  // namespace
 
 std::size_t decodeChannels(const std::uint8_t* data, std::size_t size,
                            ChannelMixture& mixture) {
@@ -131,6 +135,20 @@ std::size_t decodeChannels(const std::uint8_t* data, std::size_t size,
         mixture.pushBack({record.g, record.fits});
     });
     return size - in.left();
+}
+
+void encodeChannels(const ChannelMixture& mixture, std::vector<std::uint8_t>& bytes) {
+    // Scales of what is read may be others: they are followed until they stay.
+    constexpr int kFollow = 8;
+    std::vector<std::uint8_t> encoded = encodedOnce(mixture);
+    for (int round = 0; round < kFollow; ++round) {
+        ChannelMixture read(mixture.channels());
+        decodeChannels(encoded.data(), encoded.size(), read);
+        std::vector<std::uint8_t> again = encodedOnce(read);
+        if (again == encoded) break;
+        encoded = std::move(again);
+    }
+    bytes.insert(bytes.end(), encoded.begin(), encoded.end());
 }
 
 std::size_t ModalityMap::savedBytes() const {

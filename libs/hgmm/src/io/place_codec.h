@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -84,10 +85,12 @@ Gaussian<D> asStored(const Gaussian<D>& component) {
 
 /// Appends the record of a component, chosen so that what is read from it has the same
 /// record again. Where rounding to float moves a component across the edge of a step, it
-/// is followed until it stays; one that does not, at the limits of float, is widened.
+/// is followed until it stays; one that does not, at the limits of float, is widened, twice
+/// as much each time, until it is round enough.
 template <typename Component>
 void putStable(std::vector<std::uint8_t>& bytes, const Block& block, Component component) {
     constexpr int kFollow = 8, kGiveUp = 64;
+    double wider = 1e-6;
     std::vector<std::uint8_t> record, again;
     Writer recordOut(record);
     putRecord(recordOut, block, component);
@@ -95,8 +98,11 @@ void putStable(std::vector<std::uint8_t>& bytes, const Block& block, Component c
         Reader in(record.data(), record.size());
         getRecord(in, block, component);
         if (round >= kFollow) {
-            auto place = component.g.covariance.diagonal().template head<3>();
-            place.array() += 1e-6 * place.sum();
+            auto variances = component.g.covariance.diagonal();
+            auto place = variances.template head<3>();
+            place.array() += wider * place.sum();
+            variances.tail(variances.size() - 3) *= 1.0 + wider;
+            wider = std::min(2 * wider, 1.0);
         }
         again.clear();
         Writer out(again);

@@ -19,26 +19,35 @@ constexpr double kFew = 0.65;
 /// and this share is nearer to the sensor: a pole has what is behind it on both sides [1].
 constexpr double kNearer = 0.2;
 
-/// Directions in cells of a cube about the sensor, so that those beside are found.
+struct SampleRay {
+    Eigen::Vector3d direction;  ///< unit vector; zero for a sample at the sensor
+    double range_m = 0.0;
+};
+
+/// Rays in cells of a cube about the sensor, by direction, so that those beside are found.
 class DirectionCells {
  public:
-    explicit DirectionCells(const Mixture<3>& samples_sensor) : samples_(samples_sensor) {
-        for (std::size_t i = 0; i < samples_.size(); ++i) {
-            const Eigen::Vector3d u = point(i).normalized();
-            if (u.allFinite()) cells_[keyOf(cellOf(u))].push_back(std::uint32_t(i));
+    explicit DirectionCells(const Mixture<3>& samples_sensor) {
+        rays_.reserve(samples_sensor.size());
+        for (std::size_t i = 0; i < samples_sensor.size(); ++i) {
+            const Eigen::Vector3d point = samples_sensor.meanAt(i);
+            const double range_m = point.norm();
+            if (!(range_m > 0.0)) {
+                rays_.push_back({Eigen::Vector3d::Zero(), 0.0});
+                continue;
+            }
+            rays_.push_back({point / range_m, range_m});
+            cells_[keyOf(cellOf(rays_.back().direction))].push_back(std::uint32_t(i));
         }
     }
 
-    Eigen::Vector3d point(std::size_t i) const {
-        return {double(samples_.mean[0][i]), double(samples_.mean[1][i]),
-                double(samples_.mean[2][i])};
-    }
+    const SampleRay& ray(std::size_t i) const { return rays_[i]; }
 
-    /// Calls visit(point) for every other sample beside a sample.
+    /// Calls visit(ray, apart_rad) for every other sample beside a sample.
     template <typename Visitor>
     void visitBeside(std::size_t i, const Visitor& visit) const {
-        const Eigen::Vector3d u = point(i).normalized();
-        if (!u.allFinite()) return;
+        if (rays_[i].range_m == 0.0) return;
+        const Eigen::Vector3d& u = rays_[i].direction;
         const Eigen::Vector3i middle = cellOf(u);
         for (int x = -1; x <= 1; ++x)
             for (int y = -1; y <= 1; ++y)
@@ -46,9 +55,11 @@ class DirectionCells {
                     const auto found =
                         cells_.find(keyOf(middle + Eigen::Vector3i(x, y, z)));
                     if (found == cells_.end()) continue;
-                    for (const std::uint32_t j : found->second)
-                        if (j != i && (point(j).normalized() - u).norm() < kBeside_rad)
-                            visit(point(j));
+                    for (const std::uint32_t j : found->second) {
+                        const double square = (rays_[j].direction - u).squaredNorm();
+                        if (j != i && square < kBeside_rad * kBeside_rad)
+                            visit(rays_[j], std::sqrt(square));
+                    }
                 }
     }
 
@@ -60,7 +71,7 @@ class DirectionCells {
         return ((cell.x() + 32) << 14) + ((cell.y() + 32) << 7) + cell.z() + 32;
     }
 
-    const Mixture<3>& samples_;
+    std::vector<SampleRay> rays_;
     std::unordered_map<std::int32_t, std::vector<std::uint32_t>> cells_;
 };
 
@@ -71,16 +82,17 @@ std::vector<bool> areGrazing(const Mixture<3>& samples_sensor,
     const DirectionCells cells(samples_sensor);
     std::vector<bool> grazing;
     for (const std::size_t i : asked) {
-        const Eigen::Vector3d p = cells.point(i);
-        const double range_m = p.norm();
+        const SampleRay& own = cells.ray(i);
         double all = 0, within = 0, nearer = 0;
-        cells.visitBeside(i, [&](const Eigen::Vector3d& other) {
-            const double other_m = other.norm();
-            const double apart_rad = (other / other_m - p / range_m).norm();
+        cells.visitBeside(i, [&](const SampleRay& other, double apart_rad) {
+            const double reach_m = kScatter_m + own.range_m * apart_rad / kGrazingSine;
+            const double away2 =
+                (other.range_m * other.direction - own.range_m * own.direction)
+                    .squaredNorm();
             all += 1;
-            if ((other - p).norm() < kScatter_m + range_m * apart_rad / kGrazingSine)
+            if (away2 < reach_m * reach_m)
                 within += 1;
-            else if (other_m < range_m)
+            else if (other.range_m < own.range_m)
                 nearer += 1;
         });
         grazing.push_back(all > 0 && within < kFew * all && nearer > kNearer * all);

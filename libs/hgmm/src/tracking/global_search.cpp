@@ -18,28 +18,27 @@ constexpr std::size_t kAligningSamples = 1000;
 /// Candidates may be off by this much [m], [rad].
 constexpr SearchRadius kOff{0.7, 0.15};
 
-/// Means of free space, at most so many: the first of each cell of a grid that is as fine
-/// as it may be.
-std::vector<Eigen::Vector3d> freePositions(const Mixture<4>& free, std::size_t most) {
-    constexpr double kCell_m = 0.5, kOffset = 1 << 20;
-    std::vector<Eigen::Vector3d> positions;
-    for (double cell_m = kCell_m;; cell_m *= M_SQRT2) {
-        positions.clear();
+}  // namespace
+
+FreePositions freePositionsOf(const Map& map, std::size_t most) {
+    constexpr double kFinest_m = 0.5, kOffset = 1 << 20;
+    const Mixture<4>& free = map.freeMixture();
+    for (double cell_m = kFinest_m;; cell_m *= M_SQRT2) {
+        FreePositions found{{}, cell_m};
         std::unordered_set<std::uint64_t> taken;
-        for (std::size_t i = 0; i < free.size() && positions.size() <= most; ++i) {
+        for (std::size_t i = 0; i < free.size() && found.positions_local.size() <= most;
+             ++i) {
             const Eigen::Vector3d p(free.mean[0][i], free.mean[1][i], free.mean[2][i]);
             if (!(p.cwiseAbs().maxCoeff() / cell_m < kOffset)) continue;
             std::uint64_t cell = 0;
             for (int d = 0; d < 3; ++d)
                 cell = (cell << 21) +
                        std::uint64_t(std::int64_t(std::floor(p[d] / cell_m) + kOffset));
-            if (taken.insert(cell).second) positions.push_back(p);
+            if (taken.insert(cell).second) found.positions_local.push_back(p);
         }
-        if (positions.size() <= most) return positions;
+        if (found.positions_local.size() <= most) return found;
     }
 }
-
-}  // namespace
 
 void GlobalSearchParams::validate() const {
     requireInRange("maxPositions", maxPositions, 1, 1e6);
@@ -60,7 +59,7 @@ std::optional<PoseEstimate> findInMap(const Map& map, const ScanSamples& scan,
     search.mostKept = static_cast<std::size_t>(params.aligned);
     const std::vector<PlaceCandidate> candidates = likeliestPlaces(
         map, scan,
-        freePositions(map.freeMixture(), static_cast<std::size_t>(params.maxPositions)),
+        freePositionsOf(map, static_cast<std::size_t>(params.maxPositions)).positions_local,
         search);
 
     const PatchTree<3> surfaces(map.mixture());

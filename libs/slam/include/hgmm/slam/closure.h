@@ -36,6 +36,8 @@ struct Agreement {
     double overlap = 0.0;       ///< share of surfaces where the other has one [1]
     double explained = 0.0;     ///< of those in space that the other saw [1]
     double contradicted = 0.0;  ///< of those: in space that is surely free [1]
+    /// The same of components, whatever their size: a chair tells as much as a wall [1].
+    double contradictedComponents = 0.0;
 };
 
 /// Compares the surfaces of a submap, as they lie in the frame of another, with the other's
