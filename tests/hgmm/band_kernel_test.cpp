@@ -83,6 +83,60 @@ TEST(BandKernel, HasTheSameBitsWithAnyInstructionSet) {
     }
 }
 
+TEST(BandKernel, FindsTheLanesNearAPoint) {
+    for (unsigned seed = 1; seed <= 200; ++seed) {
+        const Cases cases = someCases(seed);
+        const float* const p = cases.point;
+        const int n = int(seed) % kBlock + 1;
+        std::mt19937 engine(seed);
+        std::uniform_real_distribution<float> unit(0.F, 1.F);
+        Boxes boxes{};
+        Bodies bodies{};
+        for (int k = 0; k < kBlock; ++k)
+            for (int d = 0; d < 3; ++d) {
+                boxes.centre[d][k] = bodies.mean[d][k] = cases.lanes.mean[d][k];
+                boxes.halfExtent[d][k] = 2.F * unit(engine);
+                bodies.factor[d][k] = unit(engine);
+                bodies.factor[d + 3][k] = unit(engine);
+            }
+        std::uint64_t inside = 0, near = 0, within = 0;
+        Places all{};
+        kernels().front()->place(cases.lanes, kBlock, p, cases.rest, all);
+        float squared[kBlock] = {};
+        for (int k = 0; k < n; ++k) {
+            float beside[3], row[3] = {};
+            bool holds = true;
+            for (int d = 0; d < 3; ++d) {
+                beside[d] = p[d] - boxes.centre[d][k];
+                holds &= std::abs(beside[d]) <= boxes.halfExtent[d][k];
+            }
+            for (int r = 0, entry = 0; r < 3; ++r)
+                for (int c = 0; c <= r; ++c)
+                    row[r] += bodies.factor[entry++][k] * beside[c];
+            squared[k] = row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
+            const std::uint64_t bit = std::uint64_t{1} << unsigned(k);
+            if (holds) inside |= bit;
+            if (holds && all.beside[k] <= 16.F) near |= bit;
+            if (squared[k] <= 2.F) within |= bit;
+        }
+        for (const Kernel* kernel : kernels()) {
+            Places places{};
+            alignas(32) float found[kBlock] = {};
+            EXPECT_EQ(kernel->inside(boxes, n, p), inside) << kernel->name;
+            EXPECT_EQ(kernel->placeNear(cases.lanes, inside, p, cases.rest, 16.F, places),
+                      near)
+                << kernel->name;
+            for (int k = 0; k < n; ++k) {
+                if ((inside >> unsigned(k) & 1U) == 0) continue;
+                EXPECT_TRUE(sameBits(&places.beside[k], &all.beside[k], 1));
+                EXPECT_TRUE(sameBits(&places.height[k], &all.height[k], 1));
+            }
+            EXPECT_EQ(kernel->within(bodies, n, p, 2.F, found), within) << kernel->name;
+            EXPECT_TRUE(sameBits(found, squared, n)) << kernel->name;
+        }
+    }
+}
+
 /// Where a point is, by squares in long double.
 void placeOf(const Cases& c, int k, long double& beside, long double& height) {
     long double w[3] = {}, squared = 0, along = 0, precision = 0;

@@ -128,6 +128,8 @@ TEST(Occupancy, BatchesAreSingleQueriesBitForBit) {
     std::vector<Eigen::Vector3d> points;
     for (int i = 0; i < 20001; ++i) points.push_back(randomPoint(engine, 4.5));
     points[77].x() = std::nan("");
+    points[78] = {1e9, -1e12, 1e300};
+    points[79] = {-1e9, 0, 1};
     const int before = omp_get_max_threads();
     for (const int threads : {1, 2}) {
         omp_set_num_threads(threads);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <random>
 #include <vector>
 
@@ -286,6 +287,24 @@ TEST(Openings, AreSavedAndGoOnAlike) {
     doorway.show(map, true, 1);
     other.show(loaded, true, 1);
     EXPECT_TRUE(loaded == map);
+}
+
+TEST(Openings, AreInBatchesWhatTheyAreInSingleAnswers) {
+    Doorway doorway(false);
+    Map map;
+    doorway.show(map, false, 30);
+    doorway.show(map, true, 3);
+    std::mt19937_64 engine(5);
+    std::vector<Eigen::Vector3d> points;
+    for (int i = 0; i < 3000; ++i)
+        points.emplace_back(uniform(engine, 3, 5), uniform(engine, -1, 1),
+                            uniform(engine, -1, 1));
+    std::vector<Occupancy> answers(points.size());
+    map.occupancy(points.data(), points.size(), answers.data());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Occupancy one = map.occupancy(points[i]);
+        ASSERT_EQ(std::memcmp(&one, &answers[i], sizeof(one)), 0) << i;
+    }
 }
 
 TEST(Openings, AreMergedAndCropped) {

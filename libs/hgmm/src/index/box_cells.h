@@ -26,9 +26,9 @@ struct BoxCells {
     bool operator==(const BoxCells& o) const {
         return octave == o.octave && low == o.low && high == o.high;
     }
+    static constexpr std::int32_t kLimit = 1 << 30;
     /// All that is beyond the limit shares the cells there; NaN, which nothing is at, any.
     static std::int32_t cellOf(float v, float perCell) {
-        constexpr std::int32_t kLimit = 1 << 30;
         const float cell = v * perCell;
         if (!(cell > float(-kLimit) && cell < float(kLimit)))
             return cell < 0 ? -kLimit : kLimit;

@@ -66,6 +66,15 @@ class BoxIndex {
     template <typename Visitor>
     void visitCandidates(const CellOrder& points, std::size_t begin, std::size_t end,
                          Visitor&& visit) const;
+    /// Octaves of cells in use, rising.
+    const OctavesInUse& octaves() const { return octaves_; }
+    /// Calls visit(i) for each box that touches a cell, rising. visitCandidates() does so
+    /// for the cells of a point, octave by octave.
+    template <typename Visitor>
+    void visitCell(int octave, const BoxCells::Cell& cell, Visitor&& visit) const {
+        const PoolRun* run = blocks_.find(keyOf(octave, cell));
+        if (run != nullptr) visitCell(*run, cell, visit);
+    }
     /// Octave of the smallest cells in use; 0 if there are none.
     int smallestOctave() const {
         return octaves_.begin() != octaves_.end() ? *octaves_.begin() : 0;

@@ -1,6 +1,7 @@
 #include "index/cell_order.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "base/lattice.h"
@@ -8,6 +9,11 @@
 namespace hgmm {
 
 namespace {
+
+struct CellKey {
+    std::uint64_t key;
+    std::uint32_t index;
+};
 
 /// The low 21 bits of a coordinate, two places apart.
 std::uint64_t spread(std::int32_t coordinate) {
@@ -19,25 +25,44 @@ std::uint64_t spread(std::int32_t coordinate) {
     return (v | v << 2U) & 0x1249249249249249ULL;
 }
 
+/// Sorts by key, those of the same key as they came: by digits from the lowest, leaving out
+/// those that all keys share.
+void sortByDigits(std::vector<CellKey>& keys) {
+    constexpr unsigned kDigitBits = 8;
+    constexpr std::uint64_t kDigit = (1U << kDigitBits) - 1U;
+    std::uint64_t any = 0, all = ~std::uint64_t{0};
+    for (const CellKey& k : keys) any |= k.key, all &= k.key;
+    std::vector<CellKey> sorted(keys.size());
+    for (unsigned shift = 0; shift < 64; shift += kDigitBits) {
+        if (((any ^ all) >> shift & kDigit) == 0) continue;
+        std::array<std::uint32_t, kDigit + 1> place{};
+        for (const CellKey& k : keys) ++place[k.key >> shift & kDigit];
+        std::uint32_t before = 0;
+        for (std::uint32_t& p : place) before += std::exchange(p, before);
+        for (const CellKey& k : keys) sorted[place[k.key >> shift & kDigit]++] = k;
+        keys.swap(sorted);
+    }
+}
+
 }  // namespace
 
 CellOrder orderedByCells(const float* x, const float* y, const float* z, std::size_t n,
                          int octave) {
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(n);
+    std::vector<CellKey> keys(n);
     for (std::size_t i = 0; i < n; ++i) {
         const LatticeCell cell = LatticeCell::at({x[i], y[i], z[i]}, octave);
         keys[i] = {spread(cell.x) | spread(cell.y) << 1U | spread(cell.z) << 2U,
                    static_cast<std::uint32_t>(i)};
     }
-    std::sort(keys.begin(), keys.end());
+    sortByDigits(keys);
     CellOrder order;
     order.index.reserve(n);
     for (std::vector<float>* axis : {&order.x, &order.y, &order.z}) axis->reserve(n + 3);
-    for (const auto& [key, i] : keys) {
-        order.index.push_back(i);
-        order.x.push_back(x[i]);
-        order.y.push_back(y[i]);
-        order.z.push_back(z[i]);
+    for (const CellKey& k : keys) {
+        order.index.push_back(k.index);
+        order.x.push_back(x[k.index]);
+        order.y.push_back(y[k.index]);
+        order.z.push_back(z[k.index]);
     }
     for (std::vector<float>* axis : {&order.x, &order.y, &order.z}) axis->resize(n + 3);
     return order;

@@ -4,6 +4,7 @@
 
 #include "hgmm/map.h"
 #include "hgmm/params.h"
+#include "index/cell_order.h"
 #include "io/coverage_codec.h"
 #include "map/chunks.h"
 #include "map/model.h"
@@ -68,9 +69,18 @@ void Map::occupancy(const Eigen::Vector3d* points_map, std::size_t n, Occupancy*
         return;
     }
     const OccupancyModel& model = state_->cache.occupancy(level);
+    std::vector<Eigen::Vector3d> points(n);
+    std::vector<float> x(n), y(n), z(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        points[i] = points_map[i] - origin();
+        x[i] = static_cast<float>(points[i].x());
+        y[i] = static_cast<float>(points[i].y());
+        z[i] = static_cast<float>(points[i].z());
+    }
+    const CellOrder order =
+        orderedByCells(x.data(), y.data(), z.data(), n, model.smallestOctave());
     forEachChunk(n, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            answers[i] = model.at(points_map[i] - origin());
+        model.at(points.data(), order.index.data() + begin, end - begin, answers);
     });
 }
 

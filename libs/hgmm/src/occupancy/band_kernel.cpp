@@ -8,7 +8,8 @@ extern const Kernel kAvx2;  // band_kernel_avx2.cpp
 #endif
 
 std::vector<const Kernel*> kernels() {
-    static const Kernel baseline{"baseline", place, evaluate, normalFall};
+    static const Kernel baseline{"baseline", place,    inside,    placeNear,
+                                 within,     evaluate, normalFall};
     std::vector<const Kernel*> found{&baseline};
 #if defined(__x86_64__)
     if (__builtin_cpu_supports("avx2")) found.push_back(&kAvx2);

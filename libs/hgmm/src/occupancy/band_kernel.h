@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 
 namespace hgmm::bands {
 
@@ -18,6 +19,18 @@ struct Lanes {
     alignas(32) float reach[kBlock];         ///< of free space before the surface [m]
     alignas(32) float width[kBlock];         ///< free density falls beyond it [m]
     alignas(32) float freePerMetre[kBlock];  ///< [1/m]
+};
+
+/// Boxes beside each other. Bit k of a set of lanes stands for lane k.
+struct Boxes {
+    alignas(32) float centre[3][kBlock];      ///< [m]
+    alignas(32) float halfExtent[3][kBlock];  ///< [m]
+};
+
+/// Components of a mixture beside each other.
+struct Bodies {
+    alignas(32) float mean[3][kBlock];    ///< [m]
+    alignas(32) float factor[6][kBlock];  ///< of WhitenedGaussian, row by row [1/m]
 };
 
 /// Where a point is seen from each band.
@@ -41,6 +54,16 @@ struct Kernel {
     /// Places of a point given as a float and the rest that is left of it [m]. Reads mean,
     /// factor, view and precision.
     void (*place)(const Lanes&, int n, const float* point, const float* rest, Places&);
+    /// Which of the first n boxes hold a point.
+    std::uint64_t (*inside)(const Boxes&, int n, const float* point);
+    /// place() for the lanes of a set, and for others. Returns which of them are at most
+    /// `maxBeside` beside.
+    std::uint64_t (*placeNear)(const Lanes&, std::uint64_t set, const float* point,
+                               const float* rest, float maxBeside, Places&);
+    /// Squared distances from the first n components [sigma^2]. Returns which of them are
+    /// at most `maxSquared`.
+    std::uint64_t (*within)(const Bodies&, int n, const float* point, float maxSquared,
+                            float* squared);
     /// @param cut densities relative to their peaks count from there on: what is known
     void (*evaluate)(const Lanes&, const Places&, int n, float cut, Densities&);
     /// exp(-squared / 2) in place, squared >= 0. `squared` is aligned to 32 bytes.

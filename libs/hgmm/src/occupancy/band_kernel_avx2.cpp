@@ -5,7 +5,7 @@
 namespace hgmm::bands {
 
 extern const Kernel kAvx2;
-const Kernel kAvx2{"AVX2", place, evaluate, normalFall};
+const Kernel kAvx2{"AVX2", place, inside, placeNear, within, evaluate, normalFall};
 
 }  // namespace hgmm::bands
 #endif

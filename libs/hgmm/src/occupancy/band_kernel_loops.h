@@ -60,24 +60,89 @@ HGMM_INLINE Float8 scaledTail(const Float8& z) {
     return p * t;
 }
 
-void place(const Lanes& in, int n, const float* point, const float* rest, Places& out) {
+/// Bit k says whether lane k of a comparison is true (-1, not 0).
+HGMM_INLINE std::uint64_t bitsOf(const Int8& isTrue) {
+#if defined(__AVX2__)
+    return static_cast<unsigned>(
+        __builtin_ia32_movmskps256(reinterpret_cast<const Float8&>(isTrue)));
+#else
+    std::uint64_t bits = 0;
+    for (int k = 0; k < 8; ++k) bits |= (static_cast<unsigned>(isTrue[k]) & 1U) << k;
+    return bits;
+#endif
+}
+
+HGMM_INLINE Float8 absolute(const Float8& v) {
+    return most(v, -v);
+}
+
+HGMM_INLINE std::uint64_t firstLanes(int n) {
+    return n < kBlock ? (std::uint64_t{1} << n) - 1 : ~std::uint64_t{0};
+}
+
+std::uint64_t inside(const Boxes& in, int n, const float* point) {
+    std::uint64_t found = 0;
     for (int i = 0; i < n; i += 8) {
-        const Float8 x = (point[0] - load(in.mean[0] + i)) + rest[0];
-        const Float8 y = (point[1] - load(in.mean[1] + i)) + rest[1];
-        const Float8 z = (point[2] - load(in.mean[2] + i)) + rest[2];
+        const auto isWithin = [&](int d) {
+            return absolute(point[d] - load(in.centre[d] + i)) <=
+                   load(in.halfExtent[d] + i);
+        };
+        found |= bitsOf(isWithin(0) & isWithin(1) & isWithin(2)) << i;
+    }
+    return found & firstLanes(n);
+}
+
+HGMM_INLINE void place8(const Lanes& in, int i, const float* point, const float* rest,
+                        Places& out) {
+    const Float8 x = (point[0] - load(in.mean[0] + i)) + rest[0];
+    const Float8 y = (point[1] - load(in.mean[1] + i)) + rest[1];
+    const Float8 z = (point[2] - load(in.mean[2] + i)) + rest[2];
+    const Float8 a = load(in.factor[0] + i) * x;
+    const Float8 b = load(in.factor[1] + i) * x + load(in.factor[2] + i) * y;
+    const Float8 c = load(in.factor[3] + i) * x + load(in.factor[4] + i) * y +
+                     load(in.factor[5] + i) * z;
+    const Float8 v0 = load(in.view[0] + i), v1 = load(in.view[1] + i),
+                 v2 = load(in.view[2] + i);
+    const Float8 height = (v0 * a + v1 * b + v2 * c) / load(in.precision + i);
+    // The part along the view goes first: a difference of squares would lose all its
+    // digits far from a thin surface.
+    const Float8 u = a - height * v0, v = b - height * v1, w = c - height * v2;
+    store(out.height + i) = height;
+    store(out.beside + i) = u * u + v * v + w * w;
+}
+
+void place(const Lanes& in, int n, const float* point, const float* rest, Places& out) {
+    for (int i = 0; i < n; i += 8) place8(in, i, point, rest, out);
+}
+
+std::uint64_t placeNear(const Lanes& in, std::uint64_t set, const float* point,
+                        const float* rest, float maxBeside, Places& out) {
+    std::uint64_t near = 0;
+    for (std::uint64_t left = set; left != 0;) {
+        const int i = __builtin_ctzll(left) & ~7;
+        left &= ~(std::uint64_t{255} << i);
+        place8(in, i, point, rest, out);
+        near |= bitsOf(load(out.beside + i) <= maxBeside) << i;
+    }
+    return near & set;
+}
+
+std::uint64_t within(const Bodies& in, int n, const float* point, float maxSquared,
+                     float* squared) {
+    std::uint64_t near = 0;
+    for (int i = 0; i < n; i += 8) {
+        const Float8 x = point[0] - load(in.mean[0] + i);
+        const Float8 y = point[1] - load(in.mean[1] + i);
+        const Float8 z = point[2] - load(in.mean[2] + i);
         const Float8 a = load(in.factor[0] + i) * x;
         const Float8 b = load(in.factor[1] + i) * x + load(in.factor[2] + i) * y;
         const Float8 c = load(in.factor[3] + i) * x + load(in.factor[4] + i) * y +
                          load(in.factor[5] + i) * z;
-        const Float8 v0 = load(in.view[0] + i), v1 = load(in.view[1] + i),
-                     v2 = load(in.view[2] + i);
-        const Float8 height = (v0 * a + v1 * b + v2 * c) / load(in.precision + i);
-        // The part along the view goes first: a difference of squares would lose all its
-        // digits far from a thin surface.
-        const Float8 u = a - height * v0, v = b - height * v1, w = c - height * v2;
-        store(out.height + i) = height;
-        store(out.beside + i) = u * u + v * v + w * w;
+        const Float8 sum = a * a + b * b + c * c;
+        store(squared + i) = sum;
+        near |= bitsOf(sum <= maxSquared) << i;
     }
+    return near & firstLanes(n);
 }
 
 void evaluate(const Lanes& in, const Places& at, int n, float cut, Densities& out) {

@@ -21,6 +21,14 @@ constexpr double kNearest_m = 0.5;
 /// Octaves begin half an octave below their edge.
 constexpr double kRoot2 = 1.4142135623730951;
 
+/// Corners, bit dx + 2 dy + 4 dz, of the cells of a word whose lowest is bit 0.
+unsigned cornersFrom(Coverage::Word cells) {
+    return static_cast<unsigned>((cells & 3U) | (cells >> 2U & 12U) | (cells >> 12U & 48U) |
+                                 (cells >> 14U & 192U));
+}
+/// Those that are not across any of a set of axes.
+constexpr unsigned kWithoutAxes[8] = {0xFF, 0x55, 0x33, 0x11, 0x0F, 0x05, 0x03, 0x01};
+
 Coverage::Word bitOf(std::int32_t x, std::int32_t y, std::int32_t z) {
     const auto bit = (x & kInBlock) | (y & kInBlock) << 2 | (z & kInBlock) << 4;
     return Coverage::Word{1} << static_cast<unsigned>(bit);
@@ -98,24 +106,23 @@ void Coverage::markRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& end
     });
 }
 
-unsigned Coverage::corners(const LatticeCell& low) const {
+unsigned Coverage::corners(const LatticeCell& low, LastGroup& last) const {
     const LatticeCell block = CellBlocks::blockOf(low);
-    const std::int32_t local[3] = {low.x & kInBlock, low.y & kInBlock, low.z & kInBlock};
     // Axes along which the upper cells lie in the next block.
-    unsigned crossed = 0;
-    for (int d = 0; d < 3; ++d)
-        if (local[d] == kInBlock) crossed |= 1U << d;
-    Word words[8];
-    unsigned found = 0;
-    for (unsigned k = 0; k < 8; ++k) {
-        const unsigned own = k & crossed;
-        const auto x = std::int32_t(k & 1), y = std::int32_t(k >> 1 & 1),
-                   z = std::int32_t(k >> 2);
-        if (own == k)
-            words[k] = word({block.octave, block.x + x, block.y + y, block.z + z});
-        if ((words[own] & bitOf(local[0] + x, local[1] + y, local[2] + z)) != 0)
-            found |= 1U << k;
-    }
+    const unsigned crossed = ((low.x & kInBlock) == kInBlock ? 1U : 0U) |
+                             ((low.y & kInBlock) == kInBlock ? 2U : 0U) |
+                             ((low.z & kInBlock) == kInBlock ? 4U : 0U);
+    unsigned found = 0, across = 0;
+    do {  // for all subsets of the axes: blocks that hold corners
+        const auto x = std::int32_t(across & 1U), y = std::int32_t(across >> 1U & 1U),
+                   z = std::int32_t(across >> 2U);
+        const Word cells =
+            word({block.octave, block.x + x, block.y + y, block.z + z}, last) >>
+            CellBlocks::placeOf(
+                {0, x != 0 ? 0 : low.x, y != 0 ? 0 : low.y, z != 0 ? 0 : low.z});
+        found |= (cornersFrom(cells) & kWithoutAxes[crossed]) << across;
+        across = (across - crossed) & crossed;
+    } while (across != 0);
     return found;
 }
 
@@ -125,29 +132,38 @@ void Coverage::unmark(const LatticeCell& block, Word cells) {
 }
 
 template <typename T>
+T Coverage::shareAt(const T* x, int octave, LastGroup& last) const {
+    const double edge = powerOfTwo(octave);
+    const Eigen::Vector3d p(valueOf(x[0]), valueOf(x[1]), valueOf(x[2]));
+    const LatticeCell low = LatticeCell::at(p.array() - edge / 2, octave);
+    const unsigned marked = corners(low, last);
+    if (marked == 0) return 0.0;
+    if (marked == kAllCorners) return 1.0;
+    const Eigen::Vector3d centre = low.centre();
+    T share = 0.0, upper[3];
+    for (int d = 0; d < 3; ++d) upper[d] = (x[d] - centre[d]) / edge;
+    for (int k = 0; k < 8; ++k) {
+        if ((marked >> k & 1U) == 0) continue;
+        T weight = 1.0;
+        for (int d = 0; d < 3; ++d)
+            weight = weight * ((k >> d & 1) != 0 ? upper[d] : 1.0 - upper[d]);
+        share += weight;
+    }
+    return share;
+}
+
+template <typename T>
 T Coverage::shareAt(const T* x) const {
     T best = 0.0;
     for (const int octave : octaves_) {
-        const double edge = powerOfTwo(octave);
-        const Eigen::Vector3d p(valueOf(x[0]), valueOf(x[1]), valueOf(x[2]));
-        const LatticeCell low = LatticeCell::at(p.array() - edge / 2, octave);
-        const unsigned marked = corners(low);
-        if (marked == 0) continue;
-        if (marked == kAllCorners) return 1.0;
-        const Eigen::Vector3d centre = low.centre();
-        T share = 0.0, upper[3];
-        for (int d = 0; d < 3; ++d) upper[d] = (x[d] - centre[d]) / edge;
-        for (int k = 0; k < 8; ++k) {
-            if ((marked >> k & 1U) == 0) continue;
-            T weight = 1.0;
-            for (int d = 0; d < 3; ++d)
-                weight = weight * ((k >> d & 1) != 0 ? upper[d] : 1.0 - upper[d]);
-            share += weight;
-        }
+        LastGroup last;
+        const T share = shareAt(x, octave, last);
         if (valueOf(share) > valueOf(best)) best = share;
+        if (valueOf(best) == 1.0) break;
     }
     return best;
 }
+template double Coverage::shareAt(const double*, int, LastGroup&) const;
 template double Coverage::shareAt(const double*) const;
 template Dual Coverage::shareAt(const Dual*) const;
 
@@ -205,12 +221,13 @@ Coverage Coverage::coarsened(int times) const {
 
 Coverage::Word Coverage::withoutCovered(const LatticeCell& block, Word word) const {
     Word kept = 0;
+    LastGroup last;
     forEachCell(block, word, [&](const LatticeCell& cell) {
         const Eigen::Vector3d p = cell.centre();
         for (auto octave = octaves_.rbegin(); octave != octaves_.rend(); ++octave) {
             if (*octave <= cell.octave) break;
             const Eigen::Vector3d corner = p.array() - powerOfTwo(*octave) / 2;
-            if (corners(LatticeCell::at(corner, *octave)) == kAllCorners) return;
+            if (corners(LatticeCell::at(corner, *octave), last) == kAllCorners) return;
         }
         kept |= bitOf(cell.x, cell.y, cell.z);
     });

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/power_of_two.h"
@@ -80,6 +81,8 @@ class Coverage {
     /// The trilinear share of marked cells in [0, 1], largest over the lattices.
     template <typename T>
     T shareAt(const T* x) const;
+    /// at() for points that follow each other closely (occupancy/coverage_reader.h).
+    class Reader;
 
     /// Adds the cells of another map, whose frame has pose T_local_other here. A cell is
     /// marked if its centre lies in a marked one of the other.
@@ -139,8 +142,24 @@ class Coverage {
  private:
     /// A lattice holds cells.
     void note(int octave);
+    /// The group of blocks that was looked at last.
+    struct LastGroup {
+        LatticeCell cell = LatticeCellKeys::unused();
+        std::optional<CellBlocks::GroupView> blocks;
+    };
+    Word word(const LatticeCell& block, LastGroup& last) const {
+        const LatticeCell group = CellBlocks::blockOf(block);
+        if (!(group == last.cell)) {
+            last.cell = group;
+            last.blocks.emplace(blocks_.group(group));
+        }
+        return last.blocks->word(CellBlocks::placeOf(block));
+    }
+    /// The trilinear share of marked cells of one lattice; exactly 1 if all are.
+    template <typename T>
+    T shareAt(const T* x, int octave, LastGroup& last) const;
     /// Which of the eight cells whose lowest is `low` are marked: bit dx + 2 dy + 4 dz.
-    unsigned corners(const LatticeCell& low) const;
+    unsigned corners(const LatticeCell& low, LastGroup& last) const;
     /// The cells of a word of a block in which no coarser lattice says C = 1.
     Word withoutCovered(const LatticeCell& block, Word word) const;
 

@@ -150,10 +150,15 @@ void OccupancyModel::updateFree(std::uint32_t i, const Gaussian<4>& component) {
 
 template <typename T>
 OccupancyModel::Answer<T> OccupancyModel::answer(const T* x) const {
+    return answer(sums(x), openings_.at(x), coverage_.at(x));
+}
+
+template <typename T>
+OccupancyModel::Answer<T> OccupancyModel::answer(const Sums<T>& s, const T& open,
+                                                 const T& covered) const {
     Answer<T> answer;
-    const Sums<T> s = sums(x);
-    const T stands = 1.0 - openings_.at(x);
-    const T coverage = coverage_.at(x) * (1.0 - stands * s.sides.shadow());
+    const T stands = 1.0 - open;
+    const T coverage = covered * (1.0 - stands * s.sides.shadow());
     const T free = s.atHits.density + coverage * (s.passed.density + kPassedDensity);
     const T occupied = stands * s.occupied;
     const T total = occupied + free;
@@ -175,9 +180,11 @@ OccupancyModel::Answer<T> OccupancyModel::answer(const T* x) const {
 }
 
 Occupancy OccupancyModel::at(const Eigen::Vector3d& point) const {
+    return point.allFinite() ? occupancyOf(answer(point.data())) : Occupancy{};
+}
+
+Occupancy OccupancyModel::occupancyOf(const Answer<double>& a) {
     Occupancy result;
-    if (!point.allFinite()) return result;
-    const Answer<double> a = answer(point.data());
     result.occupied = static_cast<float>(std::clamp(a.occupied, 0.0, 1.0));
     result.free =
         std::min(static_cast<float>(std::clamp(a.free, 0.0, 1.0)), 1.F - result.occupied);
@@ -186,6 +193,10 @@ Occupancy OccupancyModel::at(const Eigen::Vector3d& point) const {
     result.variance_m2 = static_cast<float>(a.variance_m2);
     return result;
 }
+
+template OccupancyModel::Answer<double> OccupancyModel::answer(const Sums<double>&,
+                                                               const double&,
+                                                               const double&) const;
 
 Eigen::Vector3d OccupancyModel::gradient(const Eigen::Vector3d& point) const {
     if (!point.allFinite()) return Eigen::Vector3d::Zero();

@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -76,6 +78,14 @@ class OccupancyModel {
 
     /// A point that is not finite is unknown.
     Occupancy at(const Eigen::Vector3d& point) const;
+    /// The same for points[which[0]] to points[which[n - 1]], to the same places of
+    /// `answers`. Sooner than one by one where they follow each other in few cells.
+    void at(const Eigen::Vector3d* points, const std::uint32_t* which, std::size_t n,
+            Occupancy* answers) const;
+    /// Octave of the smallest cells that points are looked up in.
+    int smallestOctave() const {
+        return std::min(bandBoxes_.smallestOctave(), freeBoxes_.smallestOctave());
+    }
     /// Gradient of Occupancy::occupied [1/m].
     Eigen::Vector3d gradient(const Eigen::Vector3d& point) const;
     /// As Map::castRay. `direction` is a unit vector.
@@ -87,6 +97,11 @@ class OccupancyModel {
 
  private:
     using Factor = ComponentIndex::Factor;
+
+    static constexpr double kReach2 = kSigmas * kSigmas;  ///< [sigma^2]
+    /// exp(-kReach2 / 2): relative densities end there.
+    static constexpr double kCutDensity = 3.3546262790251185e-4;
+    static_assert(kReach2 == 16.0, "kCutDensity follows it");
 
     /// The band of a surface component, made of its rows when asked. Stored, bands would
     /// take more memory than the rows themselves.
@@ -136,6 +151,8 @@ class OccupancyModel {
     struct Bounds {
         std::array<float, 3> low, high;  ///< [m]
     };
+    /// The components near a point, as packed for it and points in the same cells.
+    class Nearby;
     /// Where a ray is near one component, along the ray.
     struct Interval {
         double start_m, end_m;  ///< within 4 sigma, and within the part that is looked at
@@ -157,10 +174,19 @@ class OccupancyModel {
                  Sums<double>& sums) const;
     template <typename T>
     Answer<T> answer(const T* x) const;
-    void addBand(std::uint32_t i, const Dual* x, Sums<Dual>& sums) const;
+    /// @param open, covered openings and coverage at the point
     template <typename T>
+    Answer<T> answer(const Sums<T>& sums, const T& open, const T& covered) const;
+    static Occupancy occupancyOf(const Answer<double>& answer);
+    void addBand(std::uint32_t i, const Dual* x, Sums<Dual>& sums) const;
+    /// What the kernel says of lane k.
+    static void addDensities(const bands::Densities& densities, int k, Sums<double>& sums);
+    /// @param coverageBeyond coverageBeyond(i) returns that of a component
+    template <typename T, typename CoverageBeyond>
     void addSide(std::uint32_t i, float viewPrecision, const T& height, const T& beside,
-                 Sides<T>& sides) const;
+                 Sides<T>& sides, CoverageBeyond&& coverageBeyond) const;
+    /// C(x) where it tells whether space is open behind a surface.
+    double coverageBeyond(std::uint32_t i) const;
     void addFree(const Joint& joint, const Dual* x, Sums<Dual>& sums) const;
     /// First and last distance at which the line from `start` along `direction` may meet a
     /// surface; the first is beyond the last if there is none.

@@ -11,16 +11,11 @@ namespace hgmm {
 namespace {
 
 constexpr double kSqrtTwoPi = 2.5066282746310002;
-constexpr double kReach2 =
-    OccupancyModel::kSigmas * OccupancyModel::kSigmas;  ///< [sigma^2]
 /// A tile of a surface, evenly filled, ends at sqrt(3) sigma.
 constexpr double kTileSigmas2 = 3.0;
 /// Whether space is open behind a surface is looked up this far behind it, in those
 /// reaches.
 constexpr double kBeyond = 1.3;
-/// exp(-kReach2 / 2): relative densities end there.
-constexpr double kCutDensity = 3.3546262790251185e-4;
-static_assert(kReach2 == 16.0, "kCutDensity follows it");
 
 /// 0 up to `low`, 1 from `high` on, linear between.
 template <typename T>
@@ -32,8 +27,8 @@ T ramp(const T& v, double low, double high) {
 
 /// A relative density that reaches zero where the index ends, so that nothing jumps there.
 template <typename T>
-T tapered(const T& density) {
-    return valueOf(density) > kCutDensity ? density - kCutDensity : T(0.0);
+T tapered(const T& density, double cut) {
+    return valueOf(density) > cut ? density - cut : T(0.0);
 }
 
 float squaredNorm(const std::array<float, 3>& v) {
@@ -56,9 +51,19 @@ Eigen::Vector3d OccupancyModel::beyond(const OccupancyParams& params,
     return surface.mean - kBeyond * double(sideOf(params, view)) * view.direction;
 }
 
-template <typename T>
+double OccupancyModel::coverageBeyond(std::uint32_t i) const {
+    const ViewDirection view = surfaces_.views[i];
+    const double beyond_m = kBeyond * double(sideOf(params_, view));
+    double beyond[3];
+    for (int d = 0; d < 3; ++d)
+        beyond[d] = double(surfaces_.rows.mean[d][i]) - beyond_m * view.direction[d];
+    return coverage_.at(beyond);
+}
+
+template <typename T, typename CoverageBeyond>
 void OccupancyModel::addSide(std::uint32_t i, float viewPrecision, const T& height,
-                             const T& beside, Sides<T>& sides) const {
+                             const T& beside, Sides<T>& sides,
+                             CoverageBeyond&& coverageBeyond) const {
     const bool isFront = valueOf(height) > 0;
     const double tau = 1.0 / std::sqrt(double(viewPrecision));
     const T distance = isFront ? height : -1.0 * height;
@@ -70,13 +75,9 @@ void OccupancyModel::addSide(std::uint32_t i, float viewPrecision, const T& heig
     const T side = off * (1.0 - ramp(distance, 0.8 * end, end));
     if (!(valueOf(side) > 0)) return;
     if (isFront) return sides.addFront(side);
-    double beyond[3];
     std::array<float, 3> direction{};
-    for (int d = 0; d < 3; ++d) {
-        beyond[d] = double(surfaces_.rows.mean[d][i]) - kBeyond * end * view.direction[d];
-        direction[d] = static_cast<float>(view.direction[d]);
-    }
-    sides.addBehind(side, direction, coverage_.at(beyond));
+    for (int d = 0; d < 3; ++d) direction[d] = static_cast<float>(view.direction[d]);
+    sides.addBehind(side, direction, coverageBeyond(i));
 }
 
 void OccupancyModel::addBand(std::uint32_t i, const Dual* x, Sums<Dual>& sums) const {
@@ -96,7 +97,7 @@ void OccupancyModel::addBand(std::uint32_t i, const Dual* x, Sums<Dual>& sums) c
         if (valueOf(squared) > kReach2) return;
         const Dual density = exp(-0.5 * squared);
         sums.occupied += double(band.peak) * density;
-        sums.known += tapered(density);
+        sums.known += tapered(density, kCutDensity);
         return;
     }
     const Dual along = double(view[0]) * whitened[0] + double(view[1]) * whitened[1] +
@@ -115,8 +116,9 @@ void OccupancyModel::addBand(std::uint32_t i, const Dual* x, Sums<Dual>& sums) c
     const Dual free = double(band.peak) * column * mass *
                       (tau * kSqrtTwoPi * double(band.freePerMetre)) * fall;
     sums.occupied += double(band.peak) * column * hit;
-    sums.known += tapered(exp(-0.5 * sharpness_ * beside) * hit);
-    addSide(i, band.viewPrecision, t, beside, sums.sides);
+    sums.known += tapered(exp(-0.5 * sharpness_ * beside) * hit, kCutDensity);
+    addSide(i, band.viewPrecision, t, beside, sums.sides,
+            [this](std::uint32_t of) { return coverageBeyond(of); });
 
     // W is 0 for hits, and N(t, tau^2) cut to [0, reach] for free points.
     const double z = valueOf(mass), a = valueOf(low), b = valueOf(high);
@@ -218,15 +220,20 @@ void OccupancyModel::addBands(const std::uint32_t* ids, int n, const float* poin
     }
     bands::kernel().evaluate(felt, places, count, float(kCutDensity), densities);
     for (int k = 0; k < count; ++k) {
-        sums.occupied += double(densities.occupied[k]);
-        sums.known += double(densities.known[k]);
-        sums.atHits.add(double(densities.freeAtHits[k]), double(densities.meanW[k]),
-                        double(densities.meanSquaredW[k]));
-        sums.passed.add(double(densities.freePassed[k]), double(densities.meanW[k]),
-                        double(densities.meanSquaredW[k]));
+        addDensities(densities, k, sums);
         addSide(feltIds[k], viewPrecision[k], double(places.height[k]),
-                double(places.beside[k]), sums.sides);
+                double(places.beside[k]), sums.sides,
+                [this](std::uint32_t i) { return coverageBeyond(i); });
     }
+}
+
+void OccupancyModel::addDensities(const bands::Densities& densities, int k,
+                                  Sums<double>& sums) {
+    const double meanW = densities.meanW[k], squaredW = densities.meanSquaredW[k];
+    sums.occupied += double(densities.occupied[k]);
+    sums.known += double(densities.known[k]);
+    sums.atHits.add(double(densities.freeAtHits[k]), meanW, squaredW);
+    sums.passed.add(double(densities.freePassed[k]), meanW, squaredW);
 }
 
 /// What bands::Kernel::place reads. Returns |v|^2 of the view.

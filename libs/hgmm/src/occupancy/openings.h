@@ -41,8 +41,12 @@ class Openings {
     /// 1 in openings, 0 from half a cell beside them, continuous. T is double or Dual.
     template <typename T>
     T at(const T* x) const {
-        if (cells_.empty()) return 0.0;
-        const T twice = 2.0 * cells_.shareAt(x);
+        return cells_.empty() ? T(0.0) : ofShare(cells_.shareAt(x));
+    }
+    /// The same by the share of open cells (Coverage::shareAt).
+    template <typename T>
+    static T ofShare(const T& share) {
+        const T twice = 2.0 * share;
         return valueOf(twice) < 1.0 ? twice : T(1.0);
     }
 
