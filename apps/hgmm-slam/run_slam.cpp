@@ -24,14 +24,55 @@ using evaluation::RecordedScan;
 using evaluation::Recording;
 using Clock = std::chrono::steady_clock;
 
+/// A scan of a recording, and what the map takes of it.
+struct ReadScan {
+    RecordedScan recorded;
+    Scan scan;
+};
+
+/// Reads the next scan on a thread of its own, where there are threads, while one is
+/// followed.
+class ScanReader {
+ public:
+    ScanReader(Recording& recording, const mrpt_bridge::ReadingParams& reading)
+        : recording_(recording),
+          reading_(reading),
+          launch_(omp_get_max_threads() > 1 ? std::launch::async : std::launch::deferred) {}
+
+    /// Nothing at the end.
+    std::optional<ReadScan> next() {
+        if (!ahead_.valid()) readAhead();
+        std::optional<ReadScan> scan = ahead_.get();
+        if (scan) readAhead();
+        return scan;
+    }
+
+ private:
+    void readAhead() {
+        ahead_ = std::async(launch_, [this]() -> std::optional<ReadScan> {
+            std::optional<RecordedScan> recorded = recording_.next();
+            if (!recorded) return std::nullopt;
+            // Of an observation that holds nothing, only the time is known.
+            Scan scan =
+                mrpt_bridge::observationToScan(*recorded->observation, std::nullopt,
+                                               mrpt_bridge::Channels::none, reading_)
+                    .value_or(Scan{});
+            return ReadScan{std::move(*recorded), std::move(scan)};
+        });
+    }
+
+    Recording& recording_;
+    mrpt_bridge::ReadingParams reading_;
+    std::launch launch_;
+    std::future<std::optional<ReadScan>> ahead_;  // uses the members above
+};
+
 /// Scans of one recording on their way through odometry into the map. Where there are
 /// threads, a scan enters the map on one of its own while the next is followed.
 class Follower {
  public:
-    Follower(const MapParams& map, const mrpt_bridge::ReadingParams& reading,
-             bool posesAreOdometry)
+    Follower(const MapParams& map, bool posesAreOdometry)
         : map_(map),
-          reading_(reading),
           posesAreOdometry_(posesAreOdometry),
           slam_(std::make_unique<slam::SubmapSlam>(map)),
           threads_(omp_get_max_threads()),
@@ -41,29 +82,29 @@ class Follower {
 
     /// Goes on from where a run stopped. Reads the recording up to there, for the state is
     /// without samples of scans.
-    void resume(const SavedRun& saved, Checkpoint& checkpoint, Recording& recording) {
+    void resume(const SavedRun& saved, Checkpoint& checkpoint, ScanReader& reader) {
         odometry_ = slam::Odometry::load(saved.odometry, [&](std::size_t number) {
-            std::optional<RecordedScan> recorded;
+            std::optional<ReadScan> read;
             while (stamps_.size() <= number) {
-                recorded = recording.next();
-                if (!recorded) throw std::runtime_error("the recording has become shorter");
-                note(*recorded);
+                read = reader.next();
+                if (!read) throw std::runtime_error("the recording has become shorter");
+                note(read->recorded);
             }
-            return samplesOf(scanOf(*recorded), map_);
+            return samplesOf(read->scan, map_);
         });
         slam_->load(saved.slam, [&](std::size_t k) { return checkpoint.submap(k); });
         lost_ = saved.scansLost;
         earlier_s_ = saved.seconds;
     }
 
-    void follow(const RecordedScan& recorded) {
+    void follow(const ReadScan& read) {
         const Pose T_given_before = T_given_last_;
-        note(recorded);
+        note(read.recorded);
         if (!odometry_) odometry_.emplace(map_, T_robot_sensor_);
         std::optional<slam::UncertainPose> motion;
         if (posesAreOdometry_)
             motion = slam::givenMotion(T_given_before.inverse() * T_given_last_);
-        const slam::UncertainPose step = odometry_->step(scanOf(recorded), time_s_, motion);
+        const slam::UncertainPose step = odometry_->step(read.scan, time_s_, motion);
         lost_ += odometry_->lost() ? 1 : 0;
         waitForInsertion();
         insertion_ = std::async(launch_, [this, step, samples = odometry_->lastSamples(),
@@ -114,13 +155,6 @@ class Follower {
         stamps_.push_back(recorded.time_s);
     }
 
-    Scan scanOf(const RecordedScan& recorded) const {
-        // Of an observation that holds nothing, only the time is known.
-        return mrpt_bridge::observationToScan(*recorded.observation, std::nullopt,
-                                              mrpt_bridge::Channels::none, reading_)
-            .value_or(Scan{});
-    }
-
     double seconds() const {
         return earlier_s_ + std::chrono::duration<double>(Clock::now() - start_).count();
     }
@@ -133,7 +167,6 @@ class Follower {
     }
 
     MapParams map_;
-    mrpt_bridge::ReadingParams reading_;
     bool posesAreOdometry_;
     std::unique_ptr<slam::SubmapSlam> slam_;
     std::optional<slam::Odometry> odometry_;
@@ -168,19 +201,20 @@ SlamRun runSlam(Recording& recording, const MapParams& map,
     const bool posesAreOdometry =
         recording.poseSource() == PoseSource::file ||
         (recording.poseSource() == PoseSource::odometry && !options.ignoreOdometry);
-    Follower follower(map, reading, posesAreOdometry);
+    ScanReader reader(recording, reading);
+    Follower follower(map, posesAreOdometry);
     const std::optional<SavedRun> saved = checkpoint.load();
     if (saved) {
         std::fprintf(stderr,
                      "going on after scan %zu of %zu, where a run of the same command "
                      "stopped (--restart begins anew)\n",
                      saved->scans, recording.size());
-        follower.resume(*saved, checkpoint, recording);
+        follower.resume(*saved, checkpoint, reader);
     }
     replay::Progress progress(recording.size(), options.quiet, saved ? saved->scans : 0);
     bool stopped = false;
-    while (const std::optional<RecordedScan> recorded = recording.next()) {
-        follower.follow(*recorded);
+    while (const std::optional<ReadScan> read = reader.next()) {
+        follower.follow(*read);
         progress.advance(follower.news());
         stopped = replay::interrupted();
         if (stopped || checkpoint.isDue()) follower.save(checkpoint);
