@@ -68,7 +68,7 @@ TEST(Resume, GoesOnBitForBitWhereverItStopped) {
     const Map map = whole->fusedMap();
     const int threads = omp_get_max_threads();
     omp_set_num_threads(1);
-    const auto parts = followed(scans, 7);
+    const auto parts = followed(scans, 16);
     omp_set_num_threads(threads);
     EXPECT_TRUE(areSame(parts->trajectory(), whole->trajectory()));
     EXPECT_TRUE(areSame(parts->graph().T_world_node, whole->graph().T_world_node));
@@ -101,6 +101,8 @@ TEST(Resume, RefusesWhatIsNoState) {
     EXPECT_THROW(slam.save(), std::logic_error);
     EXPECT_THROW(slam.saveSubmap(slam.submaps()), std::out_of_range);
     EXPECT_THROW(Odometry::load(state, {}), FormatError);
+    const ScanTracker inGivenMap(std::make_shared<const Map>(slam.fusedMap()), {});
+    EXPECT_THROW(inGivenMap.save(), std::logic_error);
 }
 
 }  // namespace
