@@ -41,7 +41,7 @@ for recording in "${recordings[@]}"; do
     locate "$recording"
     folder=$out/$(basename "$recording" .rawlog)
     mkdir -p "$folder"
-    "$bin/hgmm-slam" "$log" -o "$folder" >"$folder/log" 2>"$folder/progress" ||
+    "$bin/hgmm-slam" "$log" -o "$folder" --restart >"$folder/log" 2>"$folder/progress" ||
         { echo "$recording failed: $(tail -n 1 "$folder/progress")"; failed=1; continue; }
     echo "$recording: $(head -n 1 "$folder/log")"
     [[ -f ${poses:-} ]] &&

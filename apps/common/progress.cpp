@@ -6,8 +6,12 @@
 
 namespace replay {
 
-Progress::Progress(std::size_t total, bool quiet)
-    : total_(total), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(std::size_t total, bool quiet, std::size_t done)
+    : total_(total),
+      doneEarlier_(done),
+      done_(done),
+      quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
     if (!quiet_ && terminal_ && done_ > 0) std::fputc('\n', stderr);
@@ -19,7 +23,7 @@ void Progress::advance(const std::string& news) {
     const Clock::time_point now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - start_).count();
     const double scansPerSecond =
-        static_cast<double>(done_) / (seconds > 0 ? seconds : 1e-9);
+        static_cast<double>(done_ - doneEarlier_) / (seconds > 0 ? seconds : 1e-9);
     if (terminal_) {
         if (done_ < total_ && now - drawn_ < std::chrono::milliseconds(100)) return;
         drawn_ = now;

@@ -9,7 +9,8 @@ namespace replay {
 /// else one plain line for each tenth.
 class Progress {
  public:
-    Progress(std::size_t total, bool quiet);
+    /// @param done scans that an earlier run has done
+    Progress(std::size_t total, bool quiet, std::size_t done = 0);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -25,7 +26,7 @@ class Progress {
     void printLine(double scansPerSecond, const std::string& news) const;
 
     std::size_t total_;
-    std::size_t done_ = 0;
+    std::size_t doneEarlier_, done_;
     bool quiet_;
     bool terminal_;
     Clock::time_point start_ = Clock::now();

@@ -35,21 +35,19 @@ void goOnFrom(const CHGMMOccupancyMap& earlier, SlamRun& run, const Options& opt
     const Clock::time_point start = Clock::now();
     run.continuation = run.slam->continueFrom(std::make_shared<const Map>(earlier.model()));
     run.seconds += std::chrono::duration<double>(Clock::now() - start).count();
-    const slam::Continuation& c = run.continuation;
-    if (!c.found) {
-        const std::string counts =
-            std::to_string(c.agreeing) + " of " + std::to_string(c.searched) + " submaps";
-        throw std::runtime_error(
-            options.log + ": is not known to be where " + earlierMapFile(options) +
-            " is: " +
-            (c.elsewhere > 0 ? counts + " agree on one place there, " +
-                                   std::to_string(c.elsewhere) + " on another"
-                             : "only " + counts + " agree on a place there") +
-            ". Nothing was written; without --continue, it makes a map of its own");
-    }
     const std::vector<Pose> poses = run.slam->trajectory();
     for (std::size_t i = 0; i < poses.size(); ++i)
         run.trajectory[i].T_world_frame = poses[i];
+}
+
+std::string notFound(const slam::Continuation& c, const Options& options) {
+    const std::string counts =
+        std::to_string(c.agreeing) + " of " + std::to_string(c.searched) + " submaps";
+    return options.log + ": is not known to be where " + earlierMapFile(options) + " is: " +
+           (c.elsewhere > 0 ? counts + " agree on one place there, " +
+                                  std::to_string(c.elsewhere) + " on another"
+                            : "only " + counts + " agree on a place there") +
+           ". Nothing was written; without --continue, it makes a map of its own";
 }
 
 }  // namespace hgmm::slam_app

@@ -15,9 +15,12 @@ std::string earlierMapFile(const Options& options);
 /// is not there, no map, or empty.
 mrpt::maps::CHGMMOccupancyMap::Ptr loadEarlier(const Options& options);
 
-/// Moves a run into the frame of the map that it goes on from. Throws std::runtime_error if
-/// it was not found there, or in several places.
+/// Moves a run into the frame of the map that it goes on from, if it is found there
+/// (SlamRun::continuation).
 void goOnFrom(const mrpt::maps::CHGMMOccupancyMap& earlier, SlamRun& run,
               const Options& options);
+
+/// A message for a run that was not found, or in several places.
+std::string notFound(const slam::Continuation& continuation, const Options& options);
 
 }  // namespace hgmm::slam_app

@@ -3,7 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 
+#include "checkpoint.h"
 #include "earlier.h"
 #include "interrupt.h"
 #include "map_setup.h"
@@ -34,6 +36,11 @@ void defineOptions(CLI::App& app, Options& o) {
         ->excludes(config);
     app.add_option("--from", o.from, "First scan to use")->check(CLI::NonNegativeNumber);
     app.add_option("--to", o.to, "Last scan to use")->check(CLI::NonNegativeNumber);
+    app.add_option("--save-every", o.saveEvery_s,
+                   "Seconds between states from which an interrupted run goes on")
+        ->check(CLI::NonNegativeNumber);
+    app.add_flag("--restart", o.restart,
+                 "Begin anew where FOLDER holds a run that was not finished");
     app.add_option("--threads", o.threads, "Threads (0 = one per core)")
         ->check(CLI::Range(0, 1024));
     app.add_flag("--force", o.force, "Replace files of other kinds, too");
@@ -71,19 +78,22 @@ ExitCode run(Options& options) {
     Recording recording(options.log, recordingOptions);
     if (!recording.damage().empty())
         std::fprintf(stderr, "warning: %s\n", recording.damage().c_str());
+    Checkpoint checkpoint(options, *map, recordingOptions.sensorLabel);
+    if (options.restart) checkpoint.remove();
     replay::catchInterrupts();
     SlamRun slam = runSlam(recording, map->insertionOptions.params,
-                           map->insertionOptions.reading, options);
+                           map->insertionOptions.reading, options, checkpoint);
     if (options.earlier) goOnFrom(*map, slam, options);
-    writeOutputs(slam, *map, recordingOptions, options);
+    const bool isLost = options.earlier && !slam.continuation.found;
+    if (!isLost) writeOutputs(slam, *map, recordingOptions, options);
+    if (!slam.interrupted) checkpoint.remove();
+    if (isLost) throw std::runtime_error(notFound(slam.continuation, options));
     printSummary(slam, options);
     if (!slam.interrupted) return kDone;
-    std::fprintf(
-        stderr,
-        "interrupted: all of the above is for the first %zu of %zu scans; the rest "
-        "can go on from there: --continue '%s' --from %zu\n",
-        slam.trajectory.size(), recording.size(), options.folder.c_str(),
-        options.from + slam.trajectory.size());
+    std::fprintf(stderr,
+                 "interrupted: all of the above is for the first %zu of %zu scans; the "
+                 "same command goes on from there\n",
+                 slam.trajectory.size(), recording.size());
     return kInterrupted;
 }
 

@@ -17,7 +17,9 @@ struct Options {
     bool ignoreOdometry = false;             ///< of the recording
     std::size_t from = 0;
     std::size_t to = std::numeric_limits<std::size_t>::max();
-    int threads = 0;  ///< 0 = one per core
+    double saveEvery_s = 30.0;  ///< between states that an interrupted run goes on from
+    bool restart = false;       ///< whatever state there is
+    int threads = 0;            ///< 0 = one per core
     bool force = false;
     bool quiet = false;
 };

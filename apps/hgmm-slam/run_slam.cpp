@@ -24,14 +24,55 @@ using evaluation::RecordedScan;
 using evaluation::Recording;
 using Clock = std::chrono::steady_clock;
 
+/// A scan of a recording, and what the map takes of it.
+struct ReadScan {
+    RecordedScan recorded;
+    Scan scan;
+};
+
+/// Reads the next scan on a thread of its own, where there are threads, while one is
+/// followed.
+class ScanReader {
+ public:
+    ScanReader(Recording& recording, const mrpt_bridge::ReadingParams& reading)
+        : recording_(recording),
+          reading_(reading),
+          launch_(omp_get_max_threads() > 1 ? std::launch::async : std::launch::deferred) {}
+
+    /// Nothing at the end.
+    std::optional<ReadScan> next() {
+        if (!ahead_.valid()) readAhead();
+        std::optional<ReadScan> scan = ahead_.get();
+        if (scan) readAhead();
+        return scan;
+    }
+
+ private:
+    void readAhead() {
+        ahead_ = std::async(launch_, [this]() -> std::optional<ReadScan> {
+            std::optional<RecordedScan> recorded = recording_.next();
+            if (!recorded) return std::nullopt;
+            // Of an observation that holds nothing, only the time is known.
+            Scan scan =
+                mrpt_bridge::observationToScan(*recorded->observation, std::nullopt,
+                                               mrpt_bridge::Channels::none, reading_)
+                    .value_or(Scan{});
+            return ReadScan{std::move(*recorded), std::move(scan)};
+        });
+    }
+
+    Recording& recording_;
+    mrpt_bridge::ReadingParams reading_;
+    std::launch launch_;
+    std::future<std::optional<ReadScan>> ahead_;  // uses the members above
+};
+
 /// Scans of one recording on their way through odometry into the map. Where there are
 /// threads, a scan enters the map on one of its own while the next is followed.
 class Follower {
  public:
-    Follower(const MapParams& map, const mrpt_bridge::ReadingParams& reading,
-             bool posesAreOdometry)
+    Follower(const MapParams& map, bool posesAreOdometry)
         : map_(map),
-          reading_(reading),
           posesAreOdometry_(posesAreOdometry),
           slam_(std::make_unique<slam::SubmapSlam>(map)),
           threads_(omp_get_max_threads()),
@@ -39,25 +80,32 @@ class Follower {
         omp_set_num_threads(std::max(1, threads_ - 1));
     }
 
-    void follow(const RecordedScan& recorded) {
-        // Of an observation that holds nothing, only the time is known.
-        Scan scan = mrpt_bridge::observationToScan(*recorded.observation, std::nullopt,
-                                                   mrpt_bridge::Channels::none, reading_)
-                        .value_or(Scan{});
-        if (!odometry_) {
-            T_robot_sensor_ =
-                mrpt_bridge::sensorPoseInMap(*recorded.observation, std::nullopt);
-            odometry_.emplace(map_, T_robot_sensor_);
-        }
-        const Pose T_given_robot = mrpt_bridge::toPose(recorded.T_map_robot);
+    /// Goes on from where a run stopped. Reads the recording up to there, for the state is
+    /// without samples of scans.
+    void resume(const SavedRun& saved, Checkpoint& checkpoint, ScanReader& reader) {
+        odometry_ = slam::Odometry::load(saved.odometry, [&](std::size_t number) {
+            std::optional<ReadScan> read;
+            while (stamps_.size() <= number) {
+                read = reader.next();
+                if (!read) throw std::runtime_error("the recording has become shorter");
+                note(read->recorded);
+            }
+            return samplesOf(read->scan, map_);
+        });
+        slam_->load(saved.slam, [&](std::size_t k) { return checkpoint.submap(k); });
+        lost_ = saved.scansLost;
+        earlier_s_ = saved.seconds;
+    }
+
+    void follow(const ReadScan& read) {
+        const Pose T_given_before = T_given_last_;
+        note(read.recorded);
+        if (!odometry_) odometry_.emplace(map_, T_robot_sensor_);
         std::optional<slam::UncertainPose> motion;
         if (posesAreOdometry_)
-            motion = slam::givenMotion(T_given_last_.inverse() * T_given_robot);
-        T_given_last_ = T_given_robot;
-        time_s_ = std::max(time_s_, recorded.time_s);
-        const slam::UncertainPose step = odometry_->step(scan, time_s_, motion);
+            motion = slam::givenMotion(T_given_before.inverse() * T_given_last_);
+        const slam::UncertainPose step = odometry_->step(read.scan, time_s_, motion);
         lost_ += odometry_->lost() ? 1 : 0;
-        stamps_.push_back(recorded.time_s);
         waitForInsertion();
         insertion_ = std::async(launch_, [this, step, samples = odometry_->lastSamples(),
                                           held = odometry_->held()] {
@@ -67,6 +115,12 @@ class Follower {
             else
                 slam_->addLost(step);
         });
+    }
+
+    /// After a scan was followed.
+    void save(Checkpoint& checkpoint) {
+        waitForInsertion();
+        checkpoint.save({stamps_.size(), lost_, seconds(), {}, {}}, *odometry_, *slam_);
     }
 
     std::string news() const {
@@ -85,11 +139,26 @@ class Follower {
         for (std::size_t i = 0; i < poses.size(); ++i)
             run.trajectory.push_back({stamps_[i], poses[i]});
         run.scansLost = lost_;
+        run.seconds = seconds();
         run.slam = std::move(slam_);
         return run;
     }
 
  private:
+    /// Keeps what is needed later of a scan, in the recording's order.
+    void note(const RecordedScan& recorded) {
+        if (stamps_.empty())
+            T_robot_sensor_ =
+                mrpt_bridge::sensorPoseInMap(*recorded.observation, std::nullopt);
+        T_given_last_ = mrpt_bridge::toPose(recorded.T_map_robot);
+        time_s_ = std::max(time_s_, recorded.time_s);
+        stamps_.push_back(recorded.time_s);
+    }
+
+    double seconds() const {
+        return earlier_s_ + std::chrono::duration<double>(Clock::now() - start_).count();
+    }
+
     void waitForInsertion() {
         if (!insertion_.valid()) return;
         insertion_.get();
@@ -98,7 +167,6 @@ class Follower {
     }
 
     MapParams map_;
-    mrpt_bridge::ReadingParams reading_;
     bool posesAreOdometry_;
     std::unique_ptr<slam::SubmapSlam> slam_;
     std::optional<slam::Odometry> odometry_;
@@ -107,6 +175,8 @@ class Follower {
     std::vector<double> stamps_;
     std::size_t lost_ = 0;
     std::size_t submaps_ = 0, closures_ = 0;  // before the insertion at hand
+    Clock::time_point start_ = Clock::now();
+    double earlier_s_ = 0.0;  // that the run had taken before it stopped
     int threads_;
     std::launch launch_;
     std::future<void> insertion_;  // the last: it uses the members above
@@ -126,22 +196,31 @@ evaluation::RecordingOptions recordingOptionsFor(const Options& o) {
 }
 
 SlamRun runSlam(Recording& recording, const MapParams& map,
-                const mrpt_bridge::ReadingParams& reading, const Options& options) {
+                const mrpt_bridge::ReadingParams& reading, const Options& options,
+                Checkpoint& checkpoint) {
     const bool posesAreOdometry =
         recording.poseSource() == PoseSource::file ||
         (recording.poseSource() == PoseSource::odometry && !options.ignoreOdometry);
-    Follower follower(map, reading, posesAreOdometry);
-    const Clock::time_point start = Clock::now();
-    replay::Progress progress(recording.size(), options.quiet);
+    ScanReader reader(recording, reading);
+    Follower follower(map, posesAreOdometry);
+    const std::optional<SavedRun> saved = checkpoint.load();
+    if (saved) {
+        std::fprintf(stderr,
+                     "going on after scan %zu of %zu, where a run of the same command "
+                     "stopped (--restart begins anew)\n",
+                     saved->scans, recording.size());
+        follower.resume(*saved, checkpoint, reader);
+    }
+    replay::Progress progress(recording.size(), options.quiet, saved ? saved->scans : 0);
     bool stopped = false;
-    while (const std::optional<RecordedScan> recorded = recording.next()) {
-        follower.follow(*recorded);
+    while (const std::optional<ReadScan> read = reader.next()) {
+        follower.follow(*read);
         progress.advance(follower.news());
         stopped = replay::interrupted();
+        if (stopped || checkpoint.isDue()) follower.save(checkpoint);
         if (stopped) break;
     }
     SlamRun run = std::move(follower).finish();
-    run.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     run.interrupted = stopped;
     return run;
 }

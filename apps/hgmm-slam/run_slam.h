@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include "checkpoint.h"
 #include "options.h"
 
 namespace hgmm::slam_app {
@@ -24,8 +25,10 @@ struct SlamRun {
 /// which of several sensors is used. Throws std::runtime_error naming the file.
 evaluation::RecordingOptions recordingOptionsFor(const Options& options);
 
-/// Follows the recording to its end or Ctrl-C.
+/// Follows the recording to its end or Ctrl-C, from the checkpoint's state if it has one.
+/// Throws as Checkpoint::load does.
 SlamRun runSlam(evaluation::Recording& recording, const MapParams& map,
-                const mrpt_bridge::ReadingParams& reading, const Options& options);
+                const mrpt_bridge::ReadingParams& reading, const Options& options,
+                Checkpoint& checkpoint);
 
 }  // namespace hgmm::slam_app

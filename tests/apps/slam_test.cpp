@@ -4,9 +4,14 @@
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
+#include <signal.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <sstream>
+#include <thread>
 
 #include "../slam/walk.h"
 #include "replay_map_fixture.h"
@@ -45,6 +50,24 @@ class Slam : public ReplayFolder {
 
     std::string goingOnFrom(const std::string& name) const {
         return " --continue '" + path(name) + "'";
+    }
+
+    /// Ends a run with SIGKILL once it has saved a state.
+    void killWhenSaved(const std::string& arguments, const std::string& state) const {
+        const std::string command = "exec " HGMM_BIN_DIR "/hgmm-slam " + arguments +
+                                    " --save-every 0 --quiet >/dev/null 2>&1";
+        const pid_t child = fork();
+        if (child == 0) {
+            ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+            ::_exit(99);
+        }
+        int status = 0;
+        while (!std::filesystem::exists(path(state)) &&
+               ::waitpid(child, &status, WNOHANG) == 0)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        ::kill(child, SIGKILL);
+        ::waitpid(child, &status, 0);
+        ASSERT_TRUE(std::filesystem::exists(path(state))) << "it was too fast";
     }
 
     inline static bool twoSensors = false;
@@ -140,6 +163,35 @@ TEST_F(Slam, OneLineAScanOfTheChosenSensor) {
     outcome = slam(arguments + " --sensor left");
     EXPECT_EQ(outcome.exitCode, 1);
     expectHas(outcome.err, "no scans of a sensor left, but of front, rear");
+}
+
+TEST_F(Slam, ResumesARunThatWasKilled) {
+    const std::vector<Pose> truth = walkAround(0.1, 0.12);
+    ASSERT_EQ(slam(recordWalk(truth, "whole")).exitCode, 0);
+    const std::string arguments = recordWalk(truth);
+    killWhenSaved(arguments, "out/unfinished/state");
+
+    // Of another run, nothing is mixed in.
+    const Outcome other = slam(arguments + " --from 1");
+    EXPECT_EQ(other.exitCode, 1);
+    expectHas(other.err, "out/unfinished: holds a run that was not finished");
+    expectHas(other.err, "another --from");
+    EXPECT_FALSE(std::filesystem::exists(path("out/map.hgmm")));
+
+    const Outcome outcome = slam(arguments);
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    expectHas(outcome.err, "going on after scan ");
+    expectHas(outcome.out, std::to_string(truth.size()) + " scans in ");
+    for (const std::string name : {"map.hgmm", "trajectory.tum", "graph.g2o"})
+        EXPECT_EQ(content("out/" + name), content("whole/" + name)) << name;
+    EXPECT_FALSE(std::filesystem::exists(path("out/unfinished")));
+
+    killWhenSaved(arguments, "out/unfinished/state");
+    std::ofstream(path("out/unfinished/submap-0"), std::ios::app) << "damaged";
+    const Outcome anew = slam(arguments + " --from 1 --restart");
+    ASSERT_EQ(anew.exitCode, 0) << anew.err;
+    EXPECT_EQ(anew.err.find("going on"), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(path("out/unfinished")));
 }
 
 TEST_F(Slam, GoesOnFromAnEarlierMapInItsFrame) {

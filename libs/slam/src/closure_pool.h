@@ -16,6 +16,9 @@ class ClosurePool {
     /// @return how many closures entered
     std::size_t enter(std::vector<PoseEdge> closures, PoseGraph& graph);
 
+    /// Closures that wait: the state, for saving.
+    std::vector<PoseEdge>& waiting() { return waiting_; }
+
  private:
     static constexpr std::size_t kEnough = 3;  // that agree, against the graph
     static constexpr std::size_t kMost = 60;   // that wait

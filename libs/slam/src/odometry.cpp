@@ -3,6 +3,11 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "io/state_archive.h"
 
 namespace hgmm::slam {
 namespace {
@@ -30,6 +35,8 @@ double alikeness(const Pose& T_previous_robot) {
     const double way_m = T_previous_robot.t.norm();
     return std::clamp(kAlike_m / std::max(way_m, 1e-6), 1.0, kMost);
 }
+
+constexpr StateKind kOdometryState{{'H', 'G', 'M', 'O'}, 1, "saved odometry"};
 
 PoseEstimate startAt(const Pose& T_map_sensor) {
     PoseEstimate start;
@@ -73,6 +80,36 @@ UncertainPose Odometry::step(const Scan& scan, double time_s,
         rotated(alike * growth(before.covariance, now.covariance),
                 before.T_map_sensor.R.transpose())};
     return T_robot_sensor * T_before_now * T_sensor_robot;
+}
+
+template <typename Archive, typename Self>
+void Odometry::archive(Archive& a, Self& self) {
+    a(self.T_robot_sensor_, self.started_, self.held_.T_map_sensor, self.held_.covariance);
+    auto& last = self.last_;
+    a(last.T_map_sensor, last.covariance, last.overlap, last.contradicted, last.observable,
+      last.lost, last.inserted);
+}
+
+std::vector<std::uint8_t> Odometry::save() const {
+    StateWriter out(kOdometryState);
+    archive(out, *this);
+    out(tracker_.save());
+    return std::move(out).finish();
+}
+
+Odometry Odometry::load(const std::vector<std::uint8_t>& state,
+                        const std::function<ScanSamples(std::size_t scan)>& samplesOfScan) {
+    Odometry odometry({}, {});
+    std::vector<std::uint8_t> tracker;
+    try {
+        StateReader in(state.data(), state.size(), kOdometryState);
+        archive(in, odometry);
+        in(tracker);
+    } catch (const std::out_of_range& e) {
+        throw FormatError(std::string(kOdometryState.name) + ": " + e.what());
+    }
+    odometry.tracker_ = ScanTracker::load(tracker.data(), tracker.size(), samplesOfScan);
+    return odometry;
 }
 
 }  // namespace hgmm::slam

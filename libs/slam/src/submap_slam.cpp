@@ -4,18 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <future>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "closure_pool.h"
 #include "drift.h"
+#include "submap_slam_impl.h"
 
 namespace hgmm::slam {
 namespace {
-
-using SharedSubmap = std::shared_ptr<const FinishedSubmap>;
 
 void requireRigid(const Pose& pose, const char* name) {
     const Eigen::Matrix3d off = pose.R.transpose() * pose.R - Eigen::Matrix3d::Identity();
@@ -39,36 +36,6 @@ double medianRange(const Mixture<3>& samples_sensor) {
     return std::sqrt(static_cast<double>(*middle));
 }
 
-/// Whether a submap holds too little to be aligned well.
-bool endsEarly(const FinishedSubmap& finished, const SubmapParams& params) {
-    return static_cast<int>(finished.submap.T_submap_robot.size()) < params.minScans;
-}
-
-/// What comparing the newest of some submaps with older ones has brought.
-struct Compared {
-    std::vector<PoseEdge> closures;  ///< verified
-    /// It lies on an older one, as the graph has it, that cannot be the same place.
-    bool contradictsGraph = false;
-};
-
-Compared compareNewest(const std::vector<SharedSubmap>& submaps, const PoseGraph& graph,
-                       const SlamParams& params) {
-    const std::size_t newest = submaps.size() - 1;
-    Compared result;
-    if (endsEarly(*submaps[newest], params.submap)) return result;
-    for (const Candidate& c : candidatesFor(submaps, graph, newest, params.closure)) {
-        if (endsEarly(*submaps[c.target], params.submap)) continue;
-        const auto pose = verifiedPose(*submaps[c.target], *submaps[newest],
-                                       c.T_target_source, params.closure);
-        if (pose)
-            result.closures.push_back({c.target, newest, *pose, PoseEdge::Kind::closure});
-        else if (contradicts(*submaps[c.target], *submaps[newest], c.T_target_source))
-            result.contradictsGraph = true;
-    }
-    if (!result.closures.empty()) result.contradictsGraph = false;
-    return result;
-}
-
 }  // namespace
 
 void SlamParams::validate() const {
@@ -79,121 +46,82 @@ void SlamParams::validate() const {
     earlier.validate();
 }
 
-struct SubmapSlam::Impl {
-    Impl(const MapParams& map, const SlamParams& slam)
-        : mapParams(map), params(slam), pool(slam.optimisation), current(map) {}
+void SubmapSlam::Impl::begin(const Pose& T_world_robot) {
+    current = Submap(mapParams);
+    T_submap_robot = {};
+    T_submap_robot.T_a_b.R = T_world_robot.R;
+    graph.T_world_node.push_back({Eigen::Matrix3d::Identity(), T_world_robot.t});
+}
 
-    void begin(const Pose& T_world_robot) {
-        current = Submap(mapParams);
-        T_submap_robot = {};
-        T_submap_robot.T_a_b.R = T_world_robot.R;
-        graph.T_world_node.push_back({Eigen::Matrix3d::Identity(), T_world_robot.t});
+void SubmapSlam::Impl::require(const UncertainPose& T_previous_robot) const {
+    requireRigid(T_previous_robot.T_a_b, "T_previous_robot");
+    if (!T_previous_robot.covariance.allFinite())
+        throw std::invalid_argument("T_previous_robot: the covariance is not finite");
+    if (isFinished()) throw std::logic_error("SubmapSlam: was given a scan after finish");
+}
+
+bool SubmapSlam::Impl::isComplete() const {
+    const SubmapParams& p = params.submap;
+    const double length_m =
+        std::clamp(p.lengthPerRange * range_m, p.minLength_m, p.maxLength_m);
+    return static_cast<int>(current.T_submap_robot.size()) >= p.minScans &&
+           (current.length_m >= length_m || current.turn_rad >= p.maxTurn_rad);
+}
+
+void SubmapSlam::Impl::complete() {
+    enterClosures();
+    submaps.push_back(std::make_shared<const FinishedSubmap>(std::move(current)));
+    beginSearch();
+}
+
+void SubmapSlam::Impl::beginSearch() {
+    search = std::async(std::launch::async, [all = submaps, known = graph, slam = params] {
+        omp_set_num_threads(1);  // the front has the others
+        return compareNewest(all, known, slam);
+    });
+}
+
+void SubmapSlam::Impl::next() {
+    const UncertainPose T_last_robot = T_submap_robot;
+    complete();
+    const std::size_t last = submaps.size() - 1;
+    begin(graph.T_world_node[last] * T_last_robot.T_a_b);
+    UncertainPose T_last_next = T_last_robot;
+    T_last_next.T_a_b = graph.T_world_node[last].inverse() * graph.T_world_node.back();
+    graph.edges.push_back({last, last + 1, T_last_next, PoseEdge::Kind::odometry});
+}
+
+void SubmapSlam::Impl::move(const UncertainPose& motion) {
+    T_submap_robot = T_submap_robot * motion;
+    T_submap_robot.T_a_b.R = orthonormal(T_submap_robot.T_a_b.R);
+    current.length_m += motion.T_a_b.t.norm();
+    current.turn_rad += rotationVectorOf(motion.T_a_b.R).norm();
+}
+
+void SubmapSlam::Impl::enterClosures() {
+    if (!search.valid()) return;
+    Compared compared = search.get();
+    if (compared.contradictsGraph) doubtOdometryTo(submaps.size() - 1, graph);
+    closures += pool.enter(std::move(compared.closures), graph);
+}
+
+void SubmapSlam::Impl::closeWithEarlier(const EarlierMap& map,
+                                        const std::vector<PoseEdge>& found) {
+    const std::size_t start = found.front().to - 1;
+    std::vector<std::size_t> order;
+    for (std::size_t k = start; k < submaps.size(); ++k) order.push_back(k);
+    for (std::size_t k = start; k-- > 0;) order.push_back(k);
+    for (const std::size_t k : order) {
+        const bool known =
+            std::any_of(found.begin(), found.end(),
+                        [&](const PoseEdge& edge) { return edge.to == k + 1; });
+        if (known || endsEarly(*submaps[k], params.submap)) continue;
+        const auto place =
+            map.placeNear(*submaps[k], poseOfAll(graph, 0)[k + 1], params.closure);
+        if (!place) continue;
+        closures += pool.enter({{0, k + 1, *place, PoseEdge::Kind::closure}}, graph);
     }
-
-    void require(const UncertainPose& T_previous_robot) const {
-        requireRigid(T_previous_robot.T_a_b, "T_previous_robot");
-        if (!T_previous_robot.covariance.allFinite())
-            throw std::invalid_argument("T_previous_robot: the covariance is not finite");
-        if (isFinished())
-            throw std::logic_error("SubmapSlam: was given a scan after finish");
-    }
-
-    bool isComplete() const {
-        const SubmapParams& p = params.submap;
-        const double length_m =
-            std::clamp(p.lengthPerRange * range_m, p.minLength_m, p.maxLength_m);
-        return static_cast<int>(current.T_submap_robot.size()) >= p.minScans &&
-               (current.length_m >= length_m || current.turn_rad >= p.maxTurn_rad);
-    }
-
-    /// Lets closures that were looked for behind enter, and looks for those of the submap
-    /// at hand, which is finished.
-    void complete() {
-        enterClosures();
-        submaps.push_back(std::make_shared<const FinishedSubmap>(std::move(current)));
-        search =
-            std::async(std::launch::async, [all = submaps, known = graph, slam = params] {
-                omp_set_num_threads(1);  // the front has the others
-                return compareNewest(all, known, slam);
-            });
-    }
-
-    /// Finishes the submap at hand and begins the next one where the robot is.
-    void next() {
-        const UncertainPose T_last_robot = T_submap_robot;
-        complete();
-        const std::size_t last = submaps.size() - 1;
-        begin(graph.T_world_node[last] * T_last_robot.T_a_b);
-        UncertainPose T_last_next = T_last_robot;
-        T_last_next.T_a_b = graph.T_world_node[last].inverse() * graph.T_world_node.back();
-        graph.edges.push_back({last, last + 1, T_last_next, PoseEdge::Kind::odometry});
-    }
-
-    void move(const UncertainPose& motion) {
-        T_submap_robot = T_submap_robot * motion;
-        T_submap_robot.T_a_b.R = orthonormal(T_submap_robot.T_a_b.R);
-        current.length_m += motion.T_a_b.t.norm();
-        current.turn_rad += rotationVectorOf(motion.T_a_b.R).norm();
-    }
-
-    void enterClosures() {
-        if (!search.valid()) return;
-        Compared compared = search.get();
-        if (compared.contradictsGraph) doubtOdometryTo(submaps.size() - 1, graph);
-        closures += pool.enter(std::move(compared.closures), graph);
-    }
-
-    bool isFinished() const {
-        return started && submaps.size() + firstNode() == graph.T_world_node.size();
-    }
-
-    /// Of the submaps: behind an earlier map.
-    std::size_t firstNode() const { return earlier ? 1 : 0; }
-    const Pose& T_world_submap(std::size_t k) const {
-        return graph.T_world_node[k + firstNode()];
-    }
-    std::size_t submapCount() const { return graph.T_world_node.size() - firstNode(); }
-
-    /// Lets submaps that show the same as the earlier map become closures. From one that is
-    /// found onwards to both sides, for the graph knows next where neighbours are.
-    void closeWithEarlier(const EarlierMap& map, const std::vector<PoseEdge>& found) {
-        const std::size_t start = found.front().to - 1;
-        std::vector<std::size_t> order;
-        for (std::size_t k = start; k < submaps.size(); ++k) order.push_back(k);
-        for (std::size_t k = start; k-- > 0;) order.push_back(k);
-        for (const std::size_t k : order) {
-            const bool known =
-                std::any_of(found.begin(), found.end(),
-                            [&](const PoseEdge& edge) { return edge.to == k + 1; });
-            if (known || endsEarly(*submaps[k], params.submap)) continue;
-            const auto place =
-                map.placeNear(*submaps[k], poseOfAll(graph, 0)[k + 1], params.closure);
-            if (!place) continue;
-            closures += pool.enter({{0, k + 1, *place, PoseEdge::Kind::closure}}, graph);
-        }
-    }
-
-    Pose robot() const { return graph.T_world_node.back() * T_submap_robot.T_a_b; }
-
-    /// Submap k, finished or at hand.
-    const Submap& submap(std::size_t k) const {
-        return k < submaps.size() ? submaps[k]->submap : current;
-    }
-
-    MapParams mapParams;
-    SlamParams params;
-    PoseGraph graph;
-    ClosurePool pool;
-    std::vector<SharedSubmap> submaps;
-    std::shared_ptr<const Map> earlier;  // that the session was found in
-    std::future<Compared> search;
-    std::size_t closures = 0;
-
-    Submap current;
-    UncertainPose T_submap_robot;  // of the robot in the submap at hand
-    double range_m = 0.0;          // median of scans, smoothed
-    bool started = false;
-};
+}
 
 SubmapSlam::SubmapSlam(const MapParams& map, const SlamParams& params) {
     params.validate();

@@ -1,5 +1,7 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -97,6 +99,20 @@ class HGMM_EXPORT ScanTracker {
     TrackedPose track(const Scan& scan, double time_s,
                       const std::optional<MotionIncrement>& odometry = std::nullopt,
                       const std::vector<float>& pointTimes_s = {});
+
+    /// The state of odometry, from which another process can go on: all that later poses
+    /// depend on, bit for bit, but for what the caller can make again, samples of scans.
+    /// For the same version of the library. Throws std::logic_error for localisation in a
+    /// given map.
+    std::vector<std::uint8_t> save() const;
+    /// Odometry that goes on from save(): the poses that follow are those of the saved one.
+    /// @param samplesOfScan tells what lastSamples() was after a scan, counted from 0 in
+    /// the order of track(); it is asked for some hundred at most, in rising order, the
+    /// last scan at the end
+    /// Throws FormatError for another buffer, and what samplesOfScan throws.
+    static ScanTracker load(
+        const std::uint8_t* data, std::size_t size,
+        const std::function<ScanSamples(std::size_t scan)>& samplesOfScan);
 
     /// The map: its own so far, or the given one.
     const Map& map() const;

@@ -21,14 +21,15 @@ bool LocalMap::hasMoved(const Pose& T_map_sensor) const {
                params_.insertEvery_rad;
 }
 
-bool LocalMap::insert(const ScanSamples& samples, const Pose& T_map_sensor) {
+bool LocalMap::insert(const ScanSamples& samples, const Pose& T_map_sensor,
+                      std::size_t number) {
     if (!hasMoved(T_map_sensor)) return false;
     if (recent_.empty())
         begin_ = T_map_sensor.t;
     else
         way_m_ += (T_map_sensor.t - recent_.back().T_map_sensor.t).norm();
     map_->insert(samples, T_map_sensor);
-    recent_.push_back({samples, T_map_sensor, way_m_});
+    recent_.push_back({samples, T_map_sensor, way_m_, number});
     while (way_m_ - recent_.front().way_m > kTakenOver * params_.mapRadius_m ||
            recent_.size() > kMostTakenOver)
         recent_.pop_front();

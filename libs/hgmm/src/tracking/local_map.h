@@ -18,14 +18,29 @@ class LocalMap {
     const std::shared_ptr<Map>& map() const { return map_; }
 
     /// Enters a scan if the sensor has moved or turned enough since the last one that was.
-    bool insert(const ScanSamples& samples, const Pose& T_map_sensor);
+    /// @param number of the scan, rising
+    bool insert(const ScanSamples& samples, const Pose& T_map_sensor, std::size_t number);
     void clear();
+
+    /// All but the samples of scans (StateWriter, StateReader).
+    template <typename Archive>
+    void archive(Archive& a) {
+        a(*map_, begin_, way_m_);
+        a.each(recent_,
+               [&](Inserted& scan) { a(scan.number, scan.T_map_sensor, scan.way_m); });
+    }
+    /// @param samplesOfScan tells those of a number, asked for in rising order
+    template <typename SamplesOfScan>
+    void bringSamples(const SamplesOfScan& samplesOfScan) {
+        for (Inserted& scan : recent_) scan.samples = samplesOfScan(scan.number);
+    }
 
  private:
     struct Inserted {
         ScanSamples samples;
         Pose T_map_sensor;
-        double way_m;  ///< that the sensor had come
+        double way_m = 0.0;      ///< that the sensor had come
+        std::size_t number = 0;  ///< of the scan
     };
 
     bool hasMoved(const Pose& T_map_sensor) const;

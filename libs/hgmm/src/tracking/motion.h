@@ -50,6 +50,12 @@ class PriorDeviation {
     SearchRadius now() const;
     void learn(const Pose& prior, const Pose& found);
 
+    /// StateWriter, StateReader.
+    template <typename Archive>
+    void archive(Archive& a) {
+        a(first_.width_m, first_.angle_rad, count_, squared_m2_, squared_rad2_);
+    }
+
  private:
     SearchRadius first_;
     int count_ = 0;

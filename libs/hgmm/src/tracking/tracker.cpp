@@ -7,9 +7,9 @@
 #include <string>
 
 #include "base/require_rigid.h"
-#include "tracking/local_map.h"
 #include "tracking/motion.h"
 #include "tracking/scan_alignment.h"
+#include "tracking/tracker_impl.h"
 
 namespace hgmm {
 
@@ -54,13 +54,6 @@ SearchRadius narrower(const SearchRadius& a, const SearchRadius& b) {
     return {std::min(a.width_m, b.width_m), std::min(a.angle_rad, b.angle_rad)};
 }
 
-/// What became of a search.
-struct FoundPose {
-    PoseHypothesis best;
-    bool isBelieved = false;
-    double conflict = 0.0;  ///< share of the scan in free space or behind surfaces
-};
-
 void requireCovariance(const Registration::Covariance& covariance, const char* what) {
     if (!covariance.allFinite() ||
         Eigen::LLT<Matrix6d>(Matrix6d(covariance)).info() != Eigen::Success)
@@ -72,61 +65,22 @@ SearchRadius wider(const SearchRadius& a, const SearchRadius& b) {
     return {std::max(a.width_m, b.width_m), std::max(a.angle_rad, b.angle_rad)};
 }
 
+const TrackerParams& checked(const TrackerParams& params) {
+    params.validate();
+    return params;
+}
+
 }  // namespace
 
-struct ScanTracker::Impl {
-    Impl(const MapParams& mapParams, const TrackerParams& trackerParams,
-         const PoseEstimate& start)
-        : params(checked(trackerParams)),
-          pose(start),
-          deviation({params.firstDeviation_m, params.firstDeviation_rad}),
-          local(mapParams, params) {
-        requireRigid(start.T_map_sensor, "tracker: the start");
-        requireCovariance(start.covariance, "tracker: the start");
-    }
-
-    static const TrackerParams& checked(const TrackerParams& params) {
-        params.validate();
-        return params;
-    }
-    void require(const Scan& scan, double time_s,
-                 const std::optional<MotionIncrement>& odometry,
-                 const std::vector<float>& pointTimes_s) const;
-    double sinceLast(double time_s) const;
-    /// How far the sensor may be from where it is guessed to be, for want of a velocity or
-    /// after a gap.
-    SearchRadius unknownSince(double time_s) const;
-    PoseEstimate predict(double time_s,
-                         const std::optional<MotionIncrement>& odometry) const;
-    const Map& map() const { return given ? *given : *local.map(); }
-    /// How far off the prior may be.
-    SearchRadius searchRadius(const PoseEstimate& prior) const;
-    bool isDoubtful(const PoseHypothesis& found, const PoseEstimate& prior) const;
-    /// Whether the sensor is not lost.
-    bool isBelieved(const PoseHypothesis& found, const PoseEstimate& prior) const;
-    bool isAbrupt(double share, double most) const {
-        return !given && conflict && share > *conflict + most;
-    }
-    /// @param vague the sensor may have come far since the last scan
-    FoundPose find(const PoseEstimate& prior, bool vague) const;
-    void renewTarget();
-    /// A map of the last scan alone. Returns whether it is in it.
-    bool beginAnew();
-
-    TrackerParams params;
-    PoseEstimate pose;             ///< of the last scan
-    std::optional<double> time_s;  ///< of the last scan
-    std::optional<Velocity> velocity;
-    SearchRadius fastest{0.0, 0.0};  ///< so far [m/s], [rad/s]: one that stands may go on
-    PriorDeviation deviation;
-    double overlap = 0.0;            ///< of the last scan
-    std::optional<double> conflict;  ///< FoundPose::conflict of the last scan not lost
-    int lostInARow = 0;              ///< scans that hold points
-    ScanSamples samples;             ///< of the last scan
-    LocalMap local;
-    std::shared_ptr<const Map> given;  ///< null: odometry
-    std::unique_ptr<PatchTree<3>> target;
-};
+ScanTracker::Impl::Impl(const MapParams& mapParams, const TrackerParams& trackerParams,
+                        const PoseEstimate& start)
+    : params(checked(trackerParams)),
+      pose(start),
+      deviation({params.firstDeviation_m, params.firstDeviation_rad}),
+      local(mapParams, params) {
+    requireRigid(start.T_map_sensor, "tracker: the start");
+    requireCovariance(start.covariance, "tracker: the start");
+}
 
 void ScanTracker::Impl::require(const Scan& scan, double time,
                                 const std::optional<MotionIncrement>& odometry,
@@ -236,7 +190,7 @@ bool ScanTracker::Impl::beginAnew() {
                                2.0 * params.firstDeviation_rad};
     pose.covariance += inPlaneOfRays(covarianceOf(unknown), samples.normalOfRays_sensor);
     local.clear();
-    const bool isIn = local.insert(samples, pose.T_map_sensor);
+    const bool isIn = local.insert(samples, pose.T_map_sensor, scans);
     renewTarget();
     return isIn;
 }
@@ -297,7 +251,7 @@ TrackedPose ScanTracker::track(const Scan& scan, double time_s,
     t.pose = now;
     t.time_s = time_s;
     t.overlap = now.overlap;
-    if (!t.given && !now.lost && t.local.insert(t.samples, now.T_map_sensor)) {
+    if (!t.given && !now.lost && t.local.insert(t.samples, now.T_map_sensor, t.scans)) {
         now.inserted = true;
         t.renewTarget();
     }
@@ -306,6 +260,7 @@ TrackedPose ScanTracker::track(const Scan& scan, double time_s,
         now.inserted = t.beginAnew();
         now.covariance = t.pose.covariance;
     }
+    ++t.scans;
     return now;
 }
 

@@ -1,5 +1,9 @@
 #pragma once
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <optional>
+#include <vector>
 
 #include "hgmm/slam/uncertain_pose.h"
 #include "hgmm/tracker.h"
@@ -21,6 +25,12 @@ class Odometry {
     UncertainPose step(const Scan& scan, double time_s,
                        const std::optional<UncertainPose>& T_previous_robot);
 
+    /// The state, as of ScanTracker::save.
+    std::vector<std::uint8_t> save() const;
+    /// Goes on from save(). Throws as ScanTracker::load does.
+    static Odometry load(const std::vector<std::uint8_t>& state,
+                         const std::function<ScanSamples(std::size_t scan)>& samplesOfScan);
+
     /// Of the last scan.
     const ScanSamples& lastSamples() const { return tracker_.lastSamples(); }
     /// Whether the last scan said nothing of the motion, which is a guess then.
@@ -30,6 +40,9 @@ class Odometry {
     bool held() const { return !last_.lost || last_.inserted; }
 
  private:
+    template <typename Archive, typename Self>
+    static void archive(Archive& a, Self& self);
+
     Pose T_robot_sensor_;
     ScanTracker tracker_;
     TrackedPose last_;   // in the map of the tracker

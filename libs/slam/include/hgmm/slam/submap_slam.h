@@ -1,5 +1,7 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -85,6 +87,26 @@ class SubmapSlam {
     /// Throws std::logic_error before finish() or when one was found before, and
     /// std::invalid_argument for a null or empty map.
     Continuation continueFrom(std::shared_ptr<const Map> earlier);
+
+    /// @name Going on in another process
+    /// Scans that follow give the same result there, bit for bit.
+    /// @{
+
+    /// Submaps that do not change any more, but for their poses.
+    std::size_t finishedSubmaps() const;
+    /// The state, between two scans, without finished submaps. For the same version of the
+    /// library. Throws std::logic_error after finish().
+    std::vector<std::uint8_t> save() const;
+    /// Finished submap k. Throws std::out_of_range.
+    std::vector<std::uint8_t> saveSubmap(std::size_t k) const;
+    /// Takes over a state that another object of the same parameters saved, in place of
+    /// this one's.
+    /// @param submapOf tells what saveSubmap(k) was
+    /// Throws FormatError for another buffer, and what submapOf throws; nothing is changed
+    /// then.
+    void load(const std::vector<std::uint8_t>& state,
+              const std::function<std::vector<std::uint8_t>(std::size_t k)>& submapOf);
+    /// @}
 
     /// Where the robot was at each scan, as is known now.
     std::vector<Pose> trajectory() const;
