@@ -2,10 +2,12 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "base/simd.h"
 #include "hgmm/params.h"
 #include "index/body_index.h"
 
@@ -82,11 +84,17 @@ struct SurfaceLikelihood::Impl {
     std::size_t liveBytes() const;
 
  private:
-    struct Patch {
-        std::array<float, 3> mean{};  ///< [m]
-        /// Principal axes, the normal first, each over the standard deviation s along it.
-        std::array<std::array<float, 3>, 3> axes{};
-        std::array<float, 2> halfEdge{};  ///< along axes 1 and 2 [s]
+    /// A cache line.
+    struct alignas(64) Patch {
+        static constexpr float kNoEnd = std::numeric_limits<float>::max();
+
+        /// Coordinate d of the principal axes, the normal first, each over the standard
+        /// deviation s along it; in lane 3 that of the mean [m].
+        std::array<Float4, 3> axesAndMean{};
+        Float4 halfEdge{0.F, 0.F, 0.F, kNoEnd};  ///< along axes 0 to 2 [s]; none along 0
+
+        float mean(int d) const { return axesAndMean[d][3]; }
+        float axis(int a, int d) const { return axesAndMean[d][a]; }
     };
     using Moments = std::array<float, 3 + Mixture<3>::packed>;
 
@@ -163,13 +171,14 @@ void SurfaceLikelihood::Impl::enter(const Mixture<3>& mixture, std::uint32_t i) 
                       widening(halfEdge_m2, kernelVariance_m2_));
         const double halfEdge = std::sqrt(halfEdge_m2);
         const Eigen::Vector3d axis = solver.eigenvectors().col(a);
-        for (int d = 0; d < 3; ++d) patch.axes[a][d] = static_cast<float>(axis[d] / s);
-        if (a > 0) patch.halfEdge[a - 1] = static_cast<float>(halfEdge / s);
+        for (int d = 0; d < 3; ++d)
+            patch.axesAndMean[d][a] = static_cast<float>(axis[d] / s);
+        patch.halfEdge[a] = static_cast<float>(halfEdge / s);
         reach += (halfEdge + reach_ * s) * axis.cwiseAbs();
     }
     BodyIndex::Box box;
     for (int d = 0; d < 3; ++d) {
-        patch.mean[d] = box.centre[d] = static_cast<float>(g.mean[d]);
+        patch.axesAndMean[d][3] = box.centre[d] = static_cast<float>(g.mean[d]);
         box.halfExtent[d] = static_cast<float>(reach[d]);
     }
     if (i == patches_.size()) {
@@ -189,13 +198,12 @@ void SurfaceLikelihood::Impl::enter(const Mixture<3>& mixture, std::uint32_t i) 
 bool SurfaceLikelihood::Impl::touches(const Patch& patch, const float* centre,
                                       float halfEdge) const {
     for (int a = 0; a < 3; ++a) {
-        const std::array<float, 3>& axis = patch.axes[a];
         float along = 0, ofCube = 0;
         for (int d = 0; d < 3; ++d) {
-            along += axis[d] * (centre[d] - patch.mean[d]);
-            ofCube += halfEdge * std::abs(axis[d]);
+            along += patch.axis(a, d) * (centre[d] - patch.mean(d));
+            ofCube += halfEdge * std::abs(patch.axis(a, d));
         }
-        const float ofPatch = a == 0 ? 0.F : patch.halfEdge[a - 1];
+        const float ofPatch = patch.halfEdge[a];
         // A margin for rounding.
         if (std::abs(along) > 1.001F * (ofPatch + reach_ + ofCube)) return false;
     }
@@ -204,16 +212,14 @@ bool SurfaceLikelihood::Impl::touches(const Patch& patch, const float* centre,
 
 inline float SurfaceLikelihood::Impl::squaredDistance(const Patch& patch, float x, float y,
                                                       float z) {
-    const float dx = x - patch.mean[0], dy = y - patch.mean[1], dz = z - patch.mean[2];
-    const auto along = [&](const std::array<float, 3>& axis) {
-        return axis[0] * dx + axis[1] * dy + axis[2] * dz;
-    };
-    // max(0, v), which would compile to jumps that are hard to predict.
-    const auto positive = [](float v) { return 0.5F * (v + std::abs(v)); };
-    const float normal = along(patch.axes[0]);
-    const float beyond1 = positive(std::abs(along(patch.axes[1])) - patch.halfEdge[0]);
-    const float beyond2 = positive(std::abs(along(patch.axes[2])) - patch.halfEdge[1]);
-    return normal * normal + beyond1 * beyond1 + beyond2 * beyond2;
+    const Float4 along = patch.axesAndMean[0] * (x - patch.mean(0)) +
+                         patch.axesAndMean[1] * (y - patch.mean(1)) +
+                         patch.axesAndMean[2] * (z - patch.mean(2));
+    // Lane 3 is before its end wherever the point is.
+    const Float4 beyond = (along < 0.F ? -along : along) - patch.halfEdge;
+    const Float4 positive = beyond > 0.F ? beyond : Float4{};
+    const Float4 squared = positive * positive;
+    return squared[0] + squared[1] + squared[2];
 }
 
 double SurfaceLikelihood::Impl::probability(float x, float y, float z) const {
