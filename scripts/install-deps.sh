@@ -25,7 +25,7 @@ packages=(
 )
 if [[ ${1:-} == asan || ${1:-} == tsan ]]; then
     # Sanitized, GCC takes longer to compile the code, and the code to run.
-    packages+=(clang libclang-rt-dev libomp-dev)
+    packages+=(clang clang-tidy libclang-rt-dev libomp-dev)
 fi
 if [[ ${1:-} == browser ]]; then
     packages+=(chromium chromium-driver python3-selenium)

@@ -45,10 +45,20 @@ wheel() {
     rm -rf "$work"
 }
 
+# 10^7 points in one scan: what they cost.
+largeScans() {
+    cmake --preset release >/dev/null
+    cmake --build --preset release --target test-hgmm
+    HGMM_LARGE_SCAN=10000000 build/tests/test-hgmm --gtest_filter='LargeScan.CostsLittleForEachPoint'
+}
+
 stage 'packages' scripts/install-deps.sh asan
 stage 'packages of the browser' scripts/install-deps.sh browser
 stage 'equality sees one ulp' scripts/equality.sh --self-test
 stage 'core in debug, shuffled' coreShuffled
+stage 'scans of 10^7 points' largeScans
+stage 'clang-tidy of the core' scripts/tidy.sh --core
+stage 'coverage of the core' scripts/coverage.sh
 stage 'sanitized, everything' sanitizedRest
 stage 'races, 20 times' racesAgain
 stage 'pages in a browser' pages

@@ -6,6 +6,7 @@
 #include "hgmm/mrpt_bridge/observation_to_scan.h"
 #include "observation/shared_samples.h"
 #include "observations.h"
+#include "options/point_warnings.h"
 #include "options/warnings.h"
 
 using hgmm::ClearedRay;
@@ -256,6 +257,21 @@ TEST(ClearedRaysOfMaps, AScanOutOfRangeIsReportedOnce) {
         "all points of a scan are farther than maxRange_m = 1 [m]: no surface was added";
     EXPECT_NE(said.find(text), std::string::npos) << said;
     EXPECT_EQ(said.find("no surface"), said.rfind("no surface")) << said;
+}
+
+TEST(ClearedRaysOfMaps, AScanOfTooManySamplesIsReported) {
+    hgmm::mrpt_bridge::forgetWarnings();
+    ::testing::internal::CaptureStderr();
+    hgmm::FilterCounts counts;
+    counts.used = 10;
+    hgmm::mrpt_bridge::warnOfPoints(counts, {});
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+    counts.doublings = 2;
+    ::testing::internal::CaptureStderr();
+    hgmm::mrpt_bridge::warnOfPoints(counts, {});
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(),
+              "[hgmm] warning: a scan has more than 262144 samples at resolution_m = 0.04 "
+              "[m]: it is read at 0.16 [m]\n");
 }
 
 TEST(ClearedRaysOfMaps, BadOptionsAreRefused) {

@@ -54,6 +54,11 @@ struct Scan {
     HGMM_EXPORT void validate() const;
 };
 
+/// A scan makes at most so many samples, for they are what an insertion takes time and
+/// memory for. If its points fill more leaves, all leaves double their edge until they do
+/// not.
+constexpr std::size_t kMaxSamples = std::size_t{1} << 18U;
+
 /// What the filter kept and dropped [points].
 struct FilterCounts {
     std::size_t used = 0;
@@ -61,6 +66,7 @@ struct FilterCounts {
     std::size_t tooNear = 0;  ///< nearer than minRange_m: dropped
     /// Farther than maxRange_m: no hits, but samplesOf makes cleared rays of them.
     std::size_t cut = 0;
+    int doublings = 0;  ///< of the leaves' edges, for the sake of kMaxSamples
 };
 
 /// Reduces a scan to samples in the sensor frame: one for each occupied leaf

@@ -91,12 +91,11 @@ ChannelSamples filterUpTo(const Scan& scan, const std::vector<const Channel*>& c
     std::array<const float*, J> values{};
     for (std::size_t c = 0; c < J; ++c)
         values[c] = channels[std::min(c, channels.size() - 1)]->values.data();
-    FilterCounts counted;
-    const auto table = sumLeaves<PointSums<J>>(
-        scan, filter, counted,
-        [&values](PointSums<J>& sums, std::size_t i, double dx, double dy, double dz) {
-            if (isMeasured(values[0][i])) sums.add(dx, dy, dz, values, i);
-        });
+    const auto add = [&values](PointSums<J>& sums, std::size_t i, double dx, double dy,
+                               double dz) {
+        if (isMeasured(values[0][i])) sums.add(dx, dy, dz, values, i);
+    };
+    const auto table = leavesOf<PointSums<J>>(scan, filter, add);
     const auto count = static_cast<int>(channels.size());
     ChannelSamples samples(count);
     samples.reserve(table.leaves().size());

@@ -75,6 +75,7 @@ class LeafSums {
         if (sums_.count >= Sums::kFloats)
             flush(), leaf_->sums.settle(), sums_ = FloatSums();
     }
+    std::size_t leafCount() const { return table_.leaves().size(); }
     const std::vector<Leaf<Sums>>& leaves() {
         flush();
         return table_.leaves();
@@ -115,12 +116,10 @@ Gaussian<3> sampleOf(const Leaf<Sums>& leaf, const FilterParams& params) {
     return g;
 }
 
-}  // namespace
-
-Mixture<3> filterScan(const Scan& scan, const FilterParams& params, FilterCounts* counts) {
-    FilterCounts counted;
-    const LeafKeys keysOf(params);
-    LeafSums sums(scan.size());
+/// Adds all points, unless they fill more leaves than there may be samples. Returns whether
+/// it did.
+bool addPoints(const Scan& scan, const LeafKeys& keysOf, LeafSums& sums,
+               FilterCounts& counted) {
     for (std::size_t i = 0; i < scan.size(); i += 4) {
         const std::size_t count = std::min<std::size_t>(4, scan.size() - i);
         const Float4 x = loadUpTo4(&scan.x[i], count), y = loadUpTo4(&scan.y[i], count),
@@ -137,13 +136,30 @@ Mixture<3> filterScan(const Scan& scan, const FilterParams& params, FilterCounts
                     countDropped({x[k], y[k], z[k]}, keysOf.maxRange2(), counted);
         }
         sums.add(leaves, x, y, z);
+        if (sums.leafCount() > kMaxSamples) return false;
     }
+    return true;
+}
+
+Mixture<3> samplesOf(const std::vector<Leaf<Sums>>& leaves, const FilterParams& params) {
     Mixture<3> samples;
-    samples.reserve(sums.leaves().size());
-    for (const Leaf<Sums>& filled : sums.leaves())
-        samples.pushBack(sampleOf(filled, params));
-    if (counts != nullptr) *counts = counted;
+    samples.reserve(leaves.size());
+    for (const Leaf<Sums>& filled : leaves) samples.pushBack(sampleOf(filled, params));
     return samples;
+}
+
+}  // namespace
+
+Mixture<3> filterScan(const Scan& scan, const FilterParams& params, FilterCounts* counts) {
+    FilterParams leaves = params;
+    for (int doublings = 0;; ++doublings, leaves = doubled(leaves)) {
+        FilterCounts counted;
+        counted.doublings = doublings;
+        LeafSums sums(scan.size());
+        if (!addPoints(scan, LeafKeys(leaves), sums, counted)) continue;
+        if (counts != nullptr) *counts = counted;
+        return samplesOf(sums.leaves(), params);
+    }
 }
 
 Mixture<3> transformed(const Mixture<3>& mixture, const Pose& T_target_source) {

@@ -34,6 +34,13 @@ struct Leaves4 {
     }
 };
 
+/// The same filter with leaves of twice the edge.
+inline FilterParams doubled(FilterParams params) {
+    params.resolution_m *= 2;
+    params.minLeaf_m *= 2;
+    return params;
+}
+
 /// The leaves of points.
 class LeafKeys {
  public:

@@ -28,7 +28,7 @@ class VoxelTable {
         std::size_t slots = 1024;
         while (slots < points / 8) slots *= 2;
         slots_.assign(slots, kFree);
-        leaves_.reserve(std::min(points, slots / 2));
+        leaves_.reserve(std::min({points, slots / 2, kMaxSamples + 1}));
     }
 
     /// The leaf of a key, until the next call; a new one is anchored at (x, y, z).
@@ -99,13 +99,12 @@ inline void countDropped(const Eigen::Vector3f& point, float maxRange2,
         ++counted.tooNear;
 }
 
-/// The leaves of the points that are in range, each with its sums.
+/// Adds the points that are in range to the sums of their leaves, unless they fill more
+/// than there may be samples. Returns whether it did.
 /// @param add add(sums, i, dx, dy, dz) adds point i, so far from the anchor [m]
 template <typename Sums, typename Add>
-VoxelTable<Sums> sumLeaves(const Scan& scan, const FilterParams& params,
-                           FilterCounts& counted, Add&& add) {
-    const LeafKeys keysOf(params);
-    VoxelTable<Sums> table(scan.size());
+bool addToLeaves(const Scan& scan, const LeafKeys& keysOf, VoxelTable<Sums>& table,
+                 Add&& add) {
     // Neighbouring points mostly share a leaf: its sums are held until another one's turn.
     std::uint64_t keys[kPointsPerChunk], current = LeafKeys::kDropped;
     Leaf<Sums>* leaf = nullptr;
@@ -116,10 +115,7 @@ VoxelTable<Sums> sumLeaves(const Scan& scan, const FilterParams& params,
         for (std::size_t k = 0; k < count; ++k) {
             const std::size_t i = begin + k;
             const float x = scan.x[i], y = scan.y[i], z = scan.z[i];
-            if (keys[k] == LeafKeys::kDropped) {
-                countDropped({x, y, z}, keysOf.maxRange2(), counted);
-                continue;
-            }
+            if (keys[k] == LeafKeys::kDropped) continue;
             if (keys[k] != current) {
                 if (leaf != nullptr) std::swap(sums, leaf->sums);
                 current = keys[k];
@@ -129,11 +125,20 @@ VoxelTable<Sums> sumLeaves(const Scan& scan, const FilterParams& params,
             }
             add(sums, i, double(x) - anchor[0], double(y) - anchor[1],
                 double(z) - anchor[2]);
-            ++counted.used;
         }
+        if (table.leaves().size() > kMaxSamples) return false;
     }
     if (leaf != nullptr) std::swap(sums, leaf->sums);
-    return table;
+    return true;
+}
+
+/// The leaves of the points that are in range, at most kMaxSamples, each with its sums.
+template <typename Sums, typename Add>
+VoxelTable<Sums> leavesOf(const Scan& scan, FilterParams params, Add&& add) {
+    for (;; params = doubled(params)) {
+        VoxelTable<Sums> table(scan.size());
+        if (addToLeaves(scan, LeafKeys(params), table, add)) return table;
+    }
 }
 
 }  // namespace hgmm

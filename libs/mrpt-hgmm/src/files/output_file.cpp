@@ -52,10 +52,11 @@ class Replaced {
     }
     void undo() {
         for (Step& step : steps_) {
+            // Where this fails the former file keeps its other name: nothing is lost.
             if (step.former.empty())
-                ::unlink(step.name.c_str());
+                static_cast<void>(::unlink(step.name.c_str()));
             else
-                ::rename(step.former.c_str(), step.name.c_str());
+                static_cast<void>(::rename(step.former.c_str(), step.name.c_str()));
             step.former.clear();
         }
     }

@@ -13,7 +13,7 @@
 #include "map/map_archive.h"
 #include "observation/shared_samples.h"
 #include "options/modality_warnings.h"
-#include "options/range_warning.h"
+#include "options/point_warnings.h"
 
 namespace bridge = ::hgmm::mrpt_bridge;
 
@@ -43,7 +43,7 @@ void CHGMMOccupancyMap::applyInsertionOptions() {
     applyInsertionOptions();
     bridge::warnOfAbsentModalities(model_, scan);
     const auto report = model().insert(scan);
-    bridge::warnOfRange(report.points, model_.params().filter);
+    bridge::warnOfPoints(report.points, model_.params().filter);
     return report;
 }
 
@@ -152,7 +152,7 @@ bool CHGMMOccupancyMap::internal_insertObservation(
     if (!samples) return false;
     const ::hgmm::Pose T_map_sensor = bridge::sensorPoseInMap(observation, robotPose);
     model().insert(*samples, T_map_sensor);
-    bridge::warnOfRange(samples->points, model_.params().filter);
+    bridge::warnOfPoints(samples->points, model_.params().filter);
     return samples->samples_sensor.size() + samples->clearedRays_sensor.size() > 0;
 }
 

@@ -1,9 +1,14 @@
-#include "options/range_warning.h"
+#include "options/point_warnings.h"
+
+#include <cmath>
+#include <string>
 
 #include "hgmm/option.h"
 #include "options/warnings.h"
 
 namespace hgmm::mrpt_bridge {
+
+namespace {
 
 void warnOfRange(const FilterCounts& points, const FilterParams& params) {
     if (points.used > 0 || points.cut + points.tooNear == 0) return;
@@ -15,6 +20,17 @@ void warnOfRange(const FilterCounts& points, const FilterParams& params) {
           : points.cut == 0   ? nearer
                               : farther + " or " + nearer) +
          " [m]: no surface was added");
+}
+
+}  // namespace
+
+void warnOfPoints(const FilterCounts& points, const FilterParams& params) {
+    warnOfRange(points, params);
+    if (points.doublings > 0)
+        warn("a scan has more than " + std::to_string(kMaxSamples) +
+             " samples at resolution_m = " + numberText(params.resolution_m) +
+             " [m]: it is read at " +
+             numberText(std::ldexp(params.resolution_m, points.doublings)) + " [m]");
 }
 
 }  // namespace hgmm::mrpt_bridge
