@@ -152,6 +152,11 @@ template double Coverage::shareAt(const double*) const;
 template Dual Coverage::shareAt(const Dual*) const;
 
 void Coverage::merge(const Coverage& other, const Pose& T_local_other) {
+    if (T_local_other.R.isIdentity(0.0) && T_local_other.t.isZero(0.0)) {
+        other.forEachBlock(
+            [this](const LatticeCell& block, Word cells) { mark(block, cells); });
+        return;
+    }
     const Pose T_other_local = T_local_other.inverse();
     other.forEachBlock([&](const LatticeCell& block, Word word) {
         forEachCell(block, word, [&](const LatticeCell& cell) {
