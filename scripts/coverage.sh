@@ -10,7 +10,7 @@ profdata=$(tool llvm-profdata) cov=$(tool llvm-cov)
 
 cmake --preset release -B $out -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_COMPILER=clang++ \
     -DCMAKE_CXX_FLAGS='-fprofile-instr-generate -fcoverage-mapping' \
-    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -DCMAKE_UNITY_BUILD=OFF \
+    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 \
     -DHGMM_BUILD_MRPT=OFF -DHGMM_BUILD_BENCH=OFF -DHGMM_BUILD_PYTHON=OFF >/dev/null
 cmake --build $out --target test-hgmm
 LLVM_PROFILE_FILE=$out/tests.profraw $out/tests/test-hgmm --gtest_brief=1 --gtest_filter="${1:-*}"
