@@ -1,5 +1,5 @@
 // A long life: a robot wanders through a building of rooms, and the map must not grow for
-// ever. Prints memory, saved size and time a scan for each tenth.
+// ever. Prints memory, saved size, time a scan and components for each tenth.
 //   bench-soak 2d|rings [--scans N] [--state FILE]
 // With a state file it goes on where it was stopped, and ends at once where it was done.
 // Exit code 1 if the memory of the last tenth is more than 1.02 times that of the fifth.
@@ -104,6 +104,7 @@ struct State {
     std::size_t rings = 0, scans = 0, done = 0;
     double heap_MB[kTenths] = {}, program_MB[kTenths] = {}, saved_KB[kTenths] = {},
            time_ms[kTenths] = {};
+    std::size_t surfaces[kTenths] = {}, free[kTenths] = {};  ///< components
 };
 
 std::string asText(const State& state, const Map& map) {
@@ -125,9 +126,10 @@ void load(const std::string& file, State& state, Map& map) {
 }
 
 void print(const State& state, int tenth) {
-    std::printf("%5d %10zu %10.2f %10.2f %10.1f %10.2f\n", tenth + 1,
+    std::printf("%5d %10zu %10.2f %10.2f %10.1f %10.2f %10zu %10zu\n", tenth + 1,
                 (tenth + 1) * state.scans / kTenths, state.heap_MB[tenth],
-                state.program_MB[tenth], state.saved_KB[tenth], state.time_ms[tenth]);
+                state.program_MB[tenth], state.saved_KB[tenth], state.time_ms[tenth],
+                state.surfaces[tenth], state.free[tenth]);
     std::fflush(stdout);
 }
 
@@ -152,6 +154,8 @@ void wander(const Scene& scene, const SimulatedSensor& sensor, State& state, Map
     state.heap_MB[tenth] = double(map.liveBytes()) / 1e6;
     state.program_MB[tenth] = double(mallinfo2().uordblks) / 1e6;
     state.saved_KB[tenth] = double(map.save().size()) / 1e3;
+    state.surfaces[tenth] = map.mixture().size();
+    state.free[tenth] = map.freeMixture().size();
 }
 
 int soak(const std::string& kind, std::size_t scans, const std::string& file) {
@@ -162,7 +166,9 @@ int soak(const std::string& kind, std::size_t scans, const std::string& file) {
     state.scans = scans > 0 ? scans : kind == "2d" ? 100000 : 20000;
     Map map;
     if (!file.empty() && std::filesystem::exists(file)) load(file, state, map);
-    std::printf("tenth      scans    heap MB program MB   saved KB    ms/scan\n");
+    std::printf(
+        "tenth      scans    heap MB program MB   saved KB    ms/scan   surfaces       "
+        "free\n");
     for (std::size_t t = 0; t < state.done * kTenths / state.scans; ++t)
         print(state, static_cast<int>(t));
     const Scene scene = building();
