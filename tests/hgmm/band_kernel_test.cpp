@@ -99,7 +99,7 @@ TEST(BandKernel, FindsTheLanesNearAPoint) {
                 bodies.factor[d][k] = unit(engine);
                 bodies.factor[d + 3][k] = unit(engine);
             }
-        std::uint64_t inside = 0, near = 0, within = 0;
+        LaneSet inside = 0, near = 0, within = 0;
         Places all{};
         kernels().front()->place(cases.lanes, kBlock, p, cases.rest, all);
         float squared[kBlock] = {};
@@ -114,7 +114,7 @@ TEST(BandKernel, FindsTheLanesNearAPoint) {
                 for (int c = 0; c <= r; ++c)
                     row[r] += bodies.factor[entry++][k] * beside[c];
             squared[k] = row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
-            const std::uint64_t bit = std::uint64_t{1} << unsigned(k);
+            const LaneSet bit = LaneSet{1} << unsigned(k);
             if (holds) inside |= bit;
             if (holds && all.beside[k] <= 16.F) near |= bit;
             if (squared[k] <= 2.F) within |= bit;

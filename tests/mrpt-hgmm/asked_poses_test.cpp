@@ -195,6 +195,27 @@ TEST(AskedPoses, SpreadIsThatWithinTheMapsOfParticles) {
     for (const auto& particle : particles) EXPECT_TRUE(isWide(*particle, *scanAt(3)));
 }
 
+// Particles that are drawn once a step lie as far apart as its noise.
+TEST(AskedPoses, ParticlesThatDoNotSearchHaveAWideKernelOfAllPoints) {
+    const CHGMMOccupancyMap first = askableMap();
+    std::vector<CHGMMOccupancyMap::Ptr> particles;
+    for (int k = 0; k < 5; ++k) particles.push_back(copyThroughArchive(first));
+    for (const auto& particle : particles) ask(*particle, *scanAt(1), {kProbe});
+    CHGMMOccupancyMap fixed = first;
+    fixed.likelihoodOptions.kernelWidth_m = 0.2;
+    const double expected = fixed.computeObservationLikelihood(*scanAt(0), kProbe);
+    for (const auto& particle : particles)
+        EXPECT_NEAR(particle->computeObservationLikelihood(*scanAt(2), kProbe), expected,
+                    1e-9);
+    // One that searches tells of its spread, and for all of them.
+    ask(*particles[0], *scanAt(2), posesAround(0.05));
+    for (const auto& particle : particles) EXPECT_TRUE(isNarrow(*particle, *scanAt(3)));
+    // One map that is asked about one pose is no filter.
+    const CHGMMOccupancyMap alone = askableMap();
+    ask(alone, *scanAt(1), {kProbe});
+    EXPECT_TRUE(isNarrow(alone, *scanAt(2)));
+}
+
 // Maps that were made before any was asked may be one filter's particles, also while they
 // are empty.
 TEST(AskedPoses, MapsMadeTogetherAreOneFilters) {

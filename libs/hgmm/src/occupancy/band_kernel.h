@@ -1,10 +1,11 @@
 #pragma once
-#include <cstdint>
 
 namespace hgmm::bands {
 
 /// So many bands are evaluated at once, at most.
 constexpr int kBlock = 64;
+/// Bit k stands for lane k.
+using LaneSet = unsigned long long;
 
 /// Bands beside each other, in the order in which their components were found: one lane a
 /// band, plain arrays of floats. Lanes up to a multiple of 8 are read and written.
@@ -21,7 +22,7 @@ struct Lanes {
     alignas(32) float freePerMetre[kBlock];  ///< [1/m]
 };
 
-/// Boxes beside each other. Bit k of a set of lanes stands for lane k.
+/// Boxes beside each other.
 struct Boxes {
     alignas(32) float centre[3][kBlock];      ///< [m]
     alignas(32) float halfExtent[3][kBlock];  ///< [m]
@@ -55,15 +56,15 @@ struct Kernel {
     /// factor, view and precision.
     void (*place)(const Lanes&, int n, const float* point, const float* rest, Places&);
     /// Which of the first n boxes hold a point.
-    std::uint64_t (*inside)(const Boxes&, int n, const float* point);
+    LaneSet (*inside)(const Boxes&, int n, const float* point);
     /// place() for the lanes of a set, and for others. Returns which of them are at most
     /// `maxBeside` beside.
-    std::uint64_t (*placeNear)(const Lanes&, std::uint64_t set, const float* point,
-                               const float* rest, float maxBeside, Places&);
+    LaneSet (*placeNear)(const Lanes&, LaneSet set, const float* point, const float* rest,
+                         float maxBeside, Places&);
     /// Squared distances from the first n components [sigma^2]. Returns which of them are
     /// at most `maxSquared`.
-    std::uint64_t (*within)(const Bodies&, int n, const float* point, float maxSquared,
-                            float* squared);
+    LaneSet (*within)(const Bodies&, int n, const float* point, float maxSquared,
+                      float* squared);
     /// @param cut densities relative to their peaks count from there on: what is known
     void (*evaluate)(const Lanes&, const Places&, int n, float cut, Densities&);
     /// exp(-squared / 2) in place, squared >= 0. `squared` is aligned to 32 bytes.

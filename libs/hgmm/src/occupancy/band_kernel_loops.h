@@ -61,12 +61,12 @@ HGMM_INLINE Float8 scaledTail(const Float8& z) {
 }
 
 /// Bit k says whether lane k of a comparison is true (-1, not 0).
-HGMM_INLINE std::uint64_t bitsOf(const Int8& isTrue) {
+HGMM_INLINE LaneSet bitsOf(const Int8& isTrue) {
 #if defined(__AVX2__)
     return static_cast<unsigned>(
         __builtin_ia32_movmskps256(reinterpret_cast<const Float8&>(isTrue)));
 #else
-    std::uint64_t bits = 0;
+    LaneSet bits = 0;
     for (int k = 0; k < 8; ++k) bits |= (static_cast<unsigned>(isTrue[k]) & 1U) << k;
     return bits;
 #endif
@@ -76,12 +76,12 @@ HGMM_INLINE Float8 absolute(const Float8& v) {
     return most(v, -v);
 }
 
-HGMM_INLINE std::uint64_t firstLanes(int n) {
-    return n < kBlock ? (std::uint64_t{1} << n) - 1 : ~std::uint64_t{0};
+HGMM_INLINE LaneSet firstLanes(int n) {
+    return n < kBlock ? (LaneSet{1} << n) - 1 : ~LaneSet{0};
 }
 
-std::uint64_t inside(const Boxes& in, int n, const float* point) {
-    std::uint64_t found = 0;
+LaneSet inside(const Boxes& in, int n, const float* point) {
+    LaneSet found = 0;
     for (int i = 0; i < n; i += 8) {
         const auto isWithin = [&](int d) {
             return absolute(point[d] - load(in.centre[d] + i)) <=
@@ -115,21 +115,21 @@ void place(const Lanes& in, int n, const float* point, const float* rest, Places
     for (int i = 0; i < n; i += 8) place8(in, i, point, rest, out);
 }
 
-std::uint64_t placeNear(const Lanes& in, std::uint64_t set, const float* point,
-                        const float* rest, float maxBeside, Places& out) {
-    std::uint64_t near = 0;
-    for (std::uint64_t left = set; left != 0;) {
+LaneSet placeNear(const Lanes& in, LaneSet set, const float* point, const float* rest,
+                  float maxBeside, Places& out) {
+    LaneSet near = 0;
+    for (LaneSet left = set; left != 0;) {
         const int i = __builtin_ctzll(left) & ~7;
-        left &= ~(std::uint64_t{255} << i);
+        left &= ~(LaneSet{255} << i);
         place8(in, i, point, rest, out);
         near |= bitsOf(load(out.beside + i) <= maxBeside) << i;
     }
     return near & set;
 }
 
-std::uint64_t within(const Bodies& in, int n, const float* point, float maxSquared,
-                     float* squared) {
-    std::uint64_t near = 0;
+LaneSet within(const Bodies& in, int n, const float* point, float maxSquared,
+               float* squared) {
+    LaneSet near = 0;
     for (int i = 0; i < n; i += 8) {
         const Float8 x = point[0] - load(in.mean[0] + i);
         const Float8 y = point[1] - load(in.mean[1] + i);

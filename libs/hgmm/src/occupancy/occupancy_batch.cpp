@@ -12,7 +12,7 @@ namespace hgmm {
 namespace {
 
 using bands::kBlock;
-using LaneSet = std::uint64_t;
+using bands::LaneSet;
 
 /// Calls visit(k) for the lanes of a set, rising.
 template <typename Visitor>

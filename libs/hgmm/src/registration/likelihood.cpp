@@ -217,7 +217,7 @@ inline float SurfaceLikelihood::Impl::squaredDistance(const Patch& patch, float 
                          patch.axesAndMean[2] * (z - patch.mean(2));
     // Lane 3 is before its end wherever the point is.
     const Float4 beyond = (along < 0.F ? -along : along) - patch.halfEdge;
-    const Float4 positive = beyond > 0.F ? beyond : Float4{};
+    const Float4 positive = beyond < 0.F ? Float4{} : beyond;  // NaN stays
     const Float4 squared = positive * positive;
     return squared[0] + squared[1] + squared[2];
 }

@@ -44,8 +44,7 @@ auto AskedPoses::start(const MapFamily& family, const mrpt::obs::CObservation& o
     asked.type = typeid(observation).hash_code();
     asked.stamp = observation.timestamp;
     const Asked* last = before(asked);
-    asked.kernel =
-        kernelFor(last ? std::optional<PoseSpread>(spreadOf(*last)) : std::nullopt);
+    asked.kernel = last ? kernelAfter(*last) : kernelFor(std::nullopt);
     oldest = std::move(asked);
     return oldest;
 }
@@ -66,6 +65,14 @@ auto AskedPoses::before(const Asked& asked) const -> const Asked* {
             last = &other;
     }
     return last;
+}
+
+LikelihoodKernel AskedPoses::kernelAfter(const Asked& before) {
+    const bool noneSearches =
+        before.byMap.size() > 1 &&
+        std::all_of(before.byMap.begin(), before.byMap.end(),
+                    [](const auto& of) { return of.second.count() == 1; });
+    return noneSearches ? kernelWithoutSearch() : kernelFor(spreadOf(before));
 }
 
 PoseSpread AskedPoses::spreadOf(const Asked& asked) {

@@ -58,6 +58,8 @@ class AskedPoses {
     Asked& start(const MapFamily& family, const mrpt::obs::CObservation& observation,
                  std::uint64_t digest);
     const Asked* before(const Asked& asked) const;
+    /// The kernel that follows from what was asked at the observation before.
+    static LikelihoodKernel kernelAfter(const Asked& before);
     static PoseSpread spreadOf(const Asked& asked);
 
     std::mutex mutex_;

@@ -38,6 +38,12 @@ std::optional<LikelihoodKernel> fixedKernel(const LikelihoodParams& params) {
                             kNarrow.shareOfPoints};
 }
 
+LikelihoodKernel kernelWithoutSearch() {
+    LikelihoodKernel kernel = kNarrow;
+    kernel.kernelWidth_m = kWide.kernelWidth_m;
+    return kernel;
+}
+
 LikelihoodKernel kernelFor(const std::optional<PoseSpread>& spread) {
     if (!spread) return kWide;
     const double share = std::max(

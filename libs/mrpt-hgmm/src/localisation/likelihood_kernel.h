@@ -17,6 +17,12 @@ struct LikelihoodKernel {
 /// The kernel that options fix, if one of them does.
 std::optional<LikelihoodKernel> fixedKernel(const LikelihoodParams& params);
 
+/// The kernel where several maps are asked about one pose each: particles of a mapping
+/// filter that do not search. How far a pose may be off in its map is the noise of a step
+/// then, which nothing asked tells: as wide as at a global start, but all points count, for
+/// what is sought is the best of few particles.
+LikelihoodKernel kernelWithoutSearch();
+
 /// The kernel for poses of such a spread. A narrow one tells the poses of a converged
 /// filter apart. A wide one, with few independent points, lets the particles of a global
 /// start live on where none is near the truth yet; it serves where nothing is known.
