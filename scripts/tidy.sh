@@ -8,7 +8,11 @@ cd "$(dirname "$0")/.."
 if [[ ${1:-} == --core ]]; then
     mapfile -t files < <(git ls-files 'libs/hgmm/src/*.cpp')
 else
-    base=$(git rev-parse --verify "${1:-HEAD~1}^{commit}")
+    base=$(git rev-parse --verify --quiet "${1:-HEAD~1}^{commit}") || {
+        [[ -z ${1:-} ]] || { echo "no commit: $1"; exit 1; }
+        echo 'the first commit of this clone: nothing to compare with'
+        exit 0
+    }
     mapfile -t files < <(git diff --name-only --diff-filter=d "$base" -- 'libs/*.cpp' 'apps/*.cpp')
 fi
 ((${#files[@]})) || {

@@ -1,6 +1,6 @@
 #include <array>
 #include <cstdint>
-#include <limits>
+#include <utility>
 #include <vector>
 
 #include "occupancy/band_kernels.h"
@@ -188,9 +188,15 @@ void OccupancyModel::Nearby::addFelt(Sums<double>& sums) {
     for (int k = 0; k < felt_; ++k) {
         const Felt& felt = feltOf_[k];
         addDensities(densities_, k, sums);
-        model_.addSide(felt.block->ids[felt.lane], felt.block->viewPrecision[felt.lane],
-                       double(feltPlaces_.height[k]), double(feltPlaces_.beside[k]),
-                       sums.sides, [&](std::uint32_t) { return coverageBeyond(felt); });
+        const std::uint32_t id = felt.block->ids[felt.lane];
+        const Side<double> side =
+            model_.sideOf(id, felt.block->viewPrecision[felt.lane],
+                          double(feltPlaces_.height[k]), double(feltPlaces_.beside[k]));
+        if (!(side.share > 0)) continue;
+        if (side.isFront)
+            sums.sides.addFront(side.share);
+        else
+            sums.sides.addBehind(side.share, model_.viewOf(id), coverageBeyond(felt));
     }
     felt_ = 0;
 }

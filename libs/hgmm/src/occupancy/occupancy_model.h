@@ -133,6 +133,11 @@ class OccupancyModel {
             squaredDistance += valueOf(more) * meanSquaredW;
         }
     };
+    template <typename T>
+    struct Side {
+        bool isFront = false;
+        T share = 0.0;  ///< in [0, 1]: 1 well off the surface, and not beside it
+    };
     /// Sums over components, all relative to their supports.
     template <typename T>
     struct Sums {
@@ -181,10 +186,14 @@ class OccupancyModel {
     void addBand(std::uint32_t i, const Dual* x, Sums<Dual>& sums) const;
     /// What the kernel says of lane k.
     static void addDensities(const bands::Densities& densities, int k, Sums<double>& sums);
-    /// @param coverageBeyond coverageBeyond(i) returns that of a component
-    template <typename T, typename CoverageBeyond>
-    void addSide(std::uint32_t i, float viewPrecision, const T& height, const T& beside,
-                 Sides<T>& sides, CoverageBeyond&& coverageBeyond) const;
+    /// On which side of a component a point is.
+    template <typename T>
+    Side<T> sideOf(std::uint32_t i, float viewPrecision, const T& height,
+                   const T& beside) const;
+    template <typename T>
+    void addSide(std::uint32_t i, const Side<T>& side, Sides<T>& sides) const;
+    /// The direction of a component's view, a unit vector.
+    std::array<float, 3> viewOf(std::uint32_t i) const;
     /// C(x) where it tells whether space is open behind a surface.
     double coverageBeyond(std::uint32_t i) const;
     void addFree(const Joint& joint, const Dual* x, Sums<Dual>& sums) const;

@@ -60,24 +60,37 @@ double OccupancyModel::coverageBeyond(std::uint32_t i) const {
     return coverage_.at(beyond);
 }
 
-template <typename T, typename CoverageBeyond>
-void OccupancyModel::addSide(std::uint32_t i, float viewPrecision, const T& height,
-                             const T& beside, Sides<T>& sides,
-                             CoverageBeyond&& coverageBeyond) const {
-    const bool isFront = valueOf(height) > 0;
+template <typename T>
+auto OccupancyModel::sideOf(std::uint32_t i, float viewPrecision, const T& height,
+                            const T& beside) const -> Side<T> {
+    Side<T> side;
+    side.isFront = valueOf(height) > 0;
     const double tau = 1.0 / std::sqrt(double(viewPrecision));
-    const T distance = isFront ? height : -1.0 * height;
+    const T distance = side.isFront ? height : -1.0 * height;
     const T over = 1.0 - ramp(beside, kTileSigmas2, square(params_.extentSigmas));
     const T off = over * ramp(distance, tau, 2 * tau);
-    if (!(valueOf(off) > 0)) return;
+    if (!(valueOf(off) > 0)) return side;
+    const double end = sideOf(params_, surfaces_.views[i]);
+    side.share = off * (1.0 - ramp(distance, 0.8 * end, end));
+    return side;
+}
+template auto OccupancyModel::sideOf(std::uint32_t, float, const double&,
+                                     const double&) const -> Side<double>;
+
+template <typename T>
+void OccupancyModel::addSide(std::uint32_t i, const Side<T>& side, Sides<T>& sides) const {
+    if (!(valueOf(side.share) > 0)) return;
+    if (side.isFront)
+        sides.addFront(side.share);
+    else
+        sides.addBehind(side.share, viewOf(i), coverageBeyond(i));
+}
+
+std::array<float, 3> OccupancyModel::viewOf(std::uint32_t i) const {
     const ViewDirection view = surfaces_.views[i];
-    const double end = sideOf(params_, view);
-    const T side = off * (1.0 - ramp(distance, 0.8 * end, end));
-    if (!(valueOf(side) > 0)) return;
-    if (isFront) return sides.addFront(side);
     std::array<float, 3> direction{};
     for (int d = 0; d < 3; ++d) direction[d] = static_cast<float>(view.direction[d]);
-    sides.addBehind(side, direction, coverageBeyond(i));
+    return direction;
 }
 
 void OccupancyModel::addBand(std::uint32_t i, const Dual* x, Sums<Dual>& sums) const {
@@ -117,8 +130,7 @@ void OccupancyModel::addBand(std::uint32_t i, const Dual* x, Sums<Dual>& sums) c
                       (tau * kSqrtTwoPi * double(band.freePerMetre)) * fall;
     sums.occupied += double(band.peak) * column * hit;
     sums.known += tapered(exp(-0.5 * sharpness_ * beside) * hit, kCutDensity);
-    addSide(i, band.viewPrecision, t, beside, sums.sides,
-            [this](std::uint32_t of) { return coverageBeyond(of); });
+    addSide(i, sideOf(i, band.viewPrecision, t, beside), sums.sides);
 
     // W is 0 for hits, and N(t, tau^2) cut to [0, reach] for free points.
     const double z = valueOf(mass), a = valueOf(low), b = valueOf(high);
@@ -221,9 +233,10 @@ void OccupancyModel::addBands(const std::uint32_t* ids, int n, const float* poin
     bands::kernel().evaluate(felt, places, count, float(kCutDensity), densities);
     for (int k = 0; k < count; ++k) {
         addDensities(densities, k, sums);
-        addSide(feltIds[k], viewPrecision[k], double(places.height[k]),
-                double(places.beside[k]), sums.sides,
-                [this](std::uint32_t i) { return coverageBeyond(i); });
+        addSide(feltIds[k],
+                sideOf(feltIds[k], viewPrecision[k], double(places.height[k]),
+                       double(places.beside[k])),
+                sums.sides);
     }
 }
 
