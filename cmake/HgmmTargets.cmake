@@ -104,7 +104,8 @@ function(hgmm_test NAME)
     endif()
     if(RECORDINGS)
         hgmm_test_shares(${NAME}.recordings ${NAME} "${RECORDINGS}" 1 "${ARG_LABELS};recordings"
-            sh -c "test -n \"$HGMM_DATA_DIR\" || exit 77; exec \"$0\" \"$@\"")
+            # Without a semicolon, which would end an argument.
+            sh -c "test -n \"$HGMM_DATA_DIR\" && exec \"$0\" \"$@\" || exit 77")
     endif()
 endfunction()
 

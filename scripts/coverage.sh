@@ -6,7 +6,10 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 out=build-coverage
 tool() { command -v "$1" || compgen -c "$1-" | sort -V | tail -1; }
-profdata=$(tool llvm-profdata) cov=$(tool llvm-cov)
+profdata=$(tool llvm-profdata) && cov=$(tool llvm-cov) || {
+    echo 'llvm-profdata and llvm-cov are missing: package llvm' >&2
+    exit 1
+}
 
 cmake --preset release -B $out -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_COMPILER=clang++ \
     -DCMAKE_CXX_FLAGS='-fprofile-instr-generate -fcoverage-mapping' \

@@ -17,7 +17,7 @@ packages=(
     python3-setuptools python3-wheel python3-build python3-matplotlib
     libjs-three python3-distributed
     # the planner's example
-    libompl-dev
+    libompl-dev libdynamicedt3d-dev
     # tests
     libgtest-dev libbenchmark-dev clang-format pkg-config
     # stock MRPT apps and their data, used by the tests and the demo
@@ -25,7 +25,7 @@ packages=(
 )
 if [[ ${1:-} == asan || ${1:-} == tsan ]]; then
     # Sanitized, GCC takes longer to compile the code, and the code to run.
-    packages+=(clang clang-tidy libclang-rt-dev libomp-dev)
+    packages+=(clang clang-tidy libclang-rt-dev libomp-dev llvm)
 fi
 if [[ ${1:-} == browser ]]; then
     packages+=(chromium chromium-driver python3-selenium)

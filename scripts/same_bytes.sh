@@ -23,11 +23,11 @@ build() {
         -DHGMM_BUILD_PYTHON=OFF)
     [[ $1 == g++ ]] && tree=$PWD/build options=()
     {
-        cmake --preset release "${options[@]}"
-        cmake --build "$tree" --target hgmm mrpt-hgmm
-        cmake -S bench/equality -B "$out/$1" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-            -DCMAKE_CXX_COMPILER="$1" -DHGMM_TREE="$PWD" -DHGMM_BUILD="$tree"
-        cmake --build "$out/$1" --target map_hash
+        cmake --preset release "${options[@]}" &&
+            cmake --build "$tree" --target hgmm mrpt-hgmm &&
+            cmake -S bench/equality -B "$out/$1" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+                -DCMAKE_CXX_COMPILER="$1" -DHGMM_TREE="$PWD" -DHGMM_BUILD="$tree" &&
+            cmake --build "$out/$1" --target map_hash
     } >"$log" 2>&1 || {
         tail -n 30 "$log" >&2
         exit 2

@@ -22,9 +22,9 @@ using Bytes = std::vector<std::uint8_t>;
 using Given = std::vector<std::pair<std::string, std::string>>;
 
 // Layout: the magic, then blocks of a u64 length and its bytes: names and values of what
-// was given, each a block, up to an empty name; SavedRun's numbers; odometry; slam. Both of
-// these have checksums of their own.
-constexpr std::string_view kMagic = "HGMC1\n";
+// was given, each a block; SavedRun's numbers, and how many submaps are files; the mark of
+// each of these; odometry; slam. Both of these have checksums of their own.
+constexpr std::string_view kMagic = "HGMC2\n";
 
 std::string contentOf(const std::string& file) {
     std::ifstream in(file, std::ios::binary);
@@ -54,6 +54,12 @@ std::string_view takeBlock(std::string_view& left) {
 
 Bytes bytesOf(std::string_view text) {
     return {text.begin(), text.end()};
+}
+
+/// Tells contents from others: a state does not go on with submaps of another run.
+std::string contentMark(std::string_view content) {
+    return std::to_string(content.size()) + ' ' +
+           std::to_string(std::hash<std::string_view>()(content));
 }
 
 /// Tells a file from others: its size, and its first megabyte.
@@ -90,7 +96,7 @@ Checkpoint::Checkpoint(const Options& o, const mrpt::maps::CHGMMOccupancyMap& ma
               {"--to", std::to_string(o.to)}};
 }
 
-std::optional<SavedRun> Checkpoint::load() const {
+std::optional<SavedRun> Checkpoint::load() {
     if (!fs::exists(stateFile())) return std::nullopt;
     const std::string content = contentOf(stateFile());
     std::string_view left(content);
@@ -104,9 +110,12 @@ std::optional<SavedRun> Checkpoint::load() const {
                     folder_ + ": holds a run that was not finished, with another " + name +
                     ". The command of that run goes on with it; --restart discards it");
         SavedRun run;
-        const std::string_view numbers = takeBlock(left);
-        std::istringstream(std::string(numbers)) >> run.scans >> run.scansLost >>
-            run.seconds;
+        std::istringstream numbers{std::string(takeBlock(left))};
+        std::size_t submaps = 0;
+        if (!(numbers >> run.scans >> run.scansLost >> run.seconds >> submaps))
+            throw std::out_of_range("it is damaged");
+        marks_.clear();
+        for (std::size_t k = 0; k < submaps; ++k) marks_.emplace_back(takeBlock(left));
         run.odometry = bytesOf(takeBlock(left));
         run.slam = bytesOf(takeBlock(left));
         return run;
@@ -116,33 +125,37 @@ std::optional<SavedRun> Checkpoint::load() const {
 }
 
 std::vector<std::uint8_t> Checkpoint::submap(std::size_t k) {
-    submaps_ = std::max(submaps_, k + 1);
-    return bytesOf(contentOf(submapFile(k)));
+    const std::string content = contentOf(submapFile(k));
+    if (k >= marks_.size() || contentMark(content) != marks_[k])
+        throw std::runtime_error(submapFile(k) + ": is damaged, or of another run");
+    return bytesOf(content);
 }
 
 bool Checkpoint::isDue() const {
     return std::chrono::duration<double>(Clock::now() - saved_).count() >= saveEvery_s_;
 }
 
-void Checkpoint::save(SavedRun run, const slam::Odometry& odometry,
+bool Checkpoint::save(SavedRun run, const slam::Odometry& odometry,
                       const slam::SubmapSlam& slam) {
     run.odometry = odometry.save();
     run.slam = slam.save();
+    saved_ = Clock::now();
     try {
         write(run, slam);
+        return true;
     } catch (const std::exception& e) {
-        std::fprintf(stderr, "warning: %s; a run that is interrupted cannot go on\n",
-                     e.what());
+        std::fprintf(stderr, "warning: %s; the state of the run was not saved\n", e.what());
+        return false;
     }
-    saved_ = Clock::now();
 }
 
 void Checkpoint::write(const SavedRun& run, const slam::SubmapSlam& slam) {
     fs::create_directories(folder_);
-    for (; submaps_ < slam.finishedSubmaps(); ++submaps_) {
-        const Bytes bytes = slam.saveSubmap(submaps_);
-        mrpt_bridge::writeFile(submapFile(submaps_),
-                               {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    while (marks_.size() < slam.finishedSubmaps()) {
+        const Bytes bytes = slam.saveSubmap(marks_.size());
+        const std::string content(bytes.begin(), bytes.end());
+        mrpt_bridge::writeFile(submapFile(marks_.size()), content);
+        marks_.push_back(contentMark(content));
     }
     std::string content(kMagic);
     for (const auto& [name, value] : given_) {
@@ -150,14 +163,16 @@ void Checkpoint::write(const SavedRun& run, const slam::SubmapSlam& slam) {
         putBlock(content, value);
     }
     putBlock(content, std::to_string(run.scans) + ' ' + std::to_string(run.scansLost) +
-                          ' ' + std::to_string(run.seconds));
+                          ' ' + std::to_string(run.seconds) + ' ' +
+                          std::to_string(marks_.size()));
+    for (const std::string& mark : marks_) putBlock(content, mark);
     putBlock(content, run.odometry.data(), run.odometry.size());
     putBlock(content, run.slam.data(), run.slam.size());
     mrpt_bridge::writeFile(stateFile(), content);
 }
 
 void Checkpoint::remove() {
-    std::error_code error;  // leftovers do no harm: without a state, nothing goes on
+    std::error_code error;  // other leftovers do no harm: without a state, nothing goes on
     fs::remove(stateFile(), error);
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder_, error))
@@ -168,7 +183,8 @@ void Checkpoint::remove() {
             fs::remove(file, error);
     }
     fs::remove(folder_, error);
-    submaps_ = 0;
+    marks_.clear();
+    if (fs::exists(stateFile())) throw std::runtime_error(stateFile() + ": stays");
 }
 
 }  // namespace hgmm::slam_app

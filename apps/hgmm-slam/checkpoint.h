@@ -35,16 +35,19 @@ class Checkpoint {
 
     /// The run that stopped here; nothing if there is none. Throws std::runtime_error if it
     /// was given something else than this one, naming what, or cannot be read.
-    std::optional<SavedRun> load() const;
+    std::optional<SavedRun> load();
     /// Finished submap k of it, as it was saved. Throws std::runtime_error.
     std::vector<std::uint8_t> submap(std::size_t k);
 
     /// Whether the last state is older than Options::saveEvery_s.
     bool isDue() const;
-    /// Saves the state of both. Where that fails, a message says so, and the run goes on.
-    void save(SavedRun run, const slam::Odometry& odometry, const slam::SubmapSlam& slam);
-    /// After the run has finished, or to begin anew.
+    /// Saves the state of both. Where that fails, a message says so, the run goes on, and
+    /// false is returned.
+    bool save(SavedRun run, const slam::Odometry& odometry, const slam::SubmapSlam& slam);
+    /// After the run has finished, or to begin anew. Throws std::runtime_error if the state
+    /// cannot be removed.
     void remove();
+    const std::string& folder() const { return folder_; }
 
  private:
     using Clock = std::chrono::steady_clock;
@@ -58,9 +61,10 @@ class Checkpoint {
     std::string folder_;
     /// What decides the result: what it is, as messages call it, and its value.
     std::vector<std::pair<std::string, std::string>> given_;
+    /// Of each finished submap that is saved: what its file holds (contentMark).
+    std::vector<std::string> marks_;
     double saveEvery_s_;
     Clock::time_point saved_ = Clock::now();
-    std::size_t submaps_ = 0;  // that are files
 };
 
 }  // namespace hgmm::slam_app

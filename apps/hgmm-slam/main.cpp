@@ -87,13 +87,14 @@ ExitCode run(Options& options) {
     const bool isLost = options.earlier && !slam.continuation.found;
     if (!isLost) writeOutputs(slam, *map, recordingOptions, options);
     if (!slam.interrupted) checkpoint.remove();
-    if (isLost) throw std::runtime_error(notFound(slam.continuation, options));
-    printSummary(slam, options);
+    if (isLost && !slam.interrupted)
+        throw std::runtime_error(notFound(slam.continuation, options));
+    if (!isLost) printSummary(slam, options);
     if (!slam.interrupted) return kDone;
-    std::fprintf(stderr,
-                 "interrupted: all of the above is for the first %zu of %zu scans; the "
-                 "same command goes on from there\n",
-                 slam.trajectory.size(), recording.size());
+    std::fprintf(stderr, "interrupted after %zu of %zu scans%s%s\n", slam.trajectory.size(),
+                 recording.size(),
+                 isLost ? ", not found in the earlier map so far: no map was written" : "",
+                 slam.canGoOn ? "; the same command goes on from there" : "");
     return kInterrupted;
 }
 

@@ -90,9 +90,12 @@ class Follower {
                 if (!read) throw std::runtime_error("the recording has become shorter");
                 note(read->recorded);
             }
+            if (!read) throw std::runtime_error("scans are not in their order");
             return samplesOf(read->scan, map_);
         });
         slam_->load(saved.slam, [&](std::size_t k) { return checkpoint.submap(k); });
+        if (stamps_.size() != saved.scans || slam_->trajectory().size() != saved.scans)
+            throw std::runtime_error("its parts are of different scans");
         lost_ = saved.scansLost;
         earlier_s_ = saved.seconds;
     }
@@ -117,10 +120,11 @@ class Follower {
         });
     }
 
-    /// After a scan was followed.
-    void save(Checkpoint& checkpoint) {
+    /// After a scan was followed. Returns whether the state was saved.
+    bool save(Checkpoint& checkpoint) {
         waitForInsertion();
-        checkpoint.save({stamps_.size(), lost_, seconds(), {}, {}}, *odometry_, *slam_);
+        return checkpoint.save({stamps_.size(), lost_, seconds(), {}, {}}, *odometry_,
+                               *slam_);
     }
 
     std::string news() const {
@@ -209,19 +213,25 @@ SlamRun runSlam(Recording& recording, const MapParams& map,
                      "going on after scan %zu of %zu, where a run of the same command "
                      "stopped (--restart begins anew)\n",
                      saved->scans, recording.size());
-        follower.resume(*saved, checkpoint, reader);
+        try {
+            follower.resume(*saved, checkpoint, reader);
+        } catch (const std::exception& e) {
+            throw std::runtime_error(checkpoint.folder() + ": " + e.what() +
+                                     "; --restart discards it");
+        }
     }
     replay::Progress progress(recording.size(), options.quiet, saved ? saved->scans : 0);
-    bool stopped = false;
+    bool stopped = false, canGoOn = false;
     while (const std::optional<ReadScan> read = reader.next()) {
         follower.follow(*read);
         progress.advance(follower.news());
         stopped = replay::interrupted();
-        if (stopped || checkpoint.isDue()) follower.save(checkpoint);
+        if (stopped || checkpoint.isDue()) canGoOn = follower.save(checkpoint);
         if (stopped) break;
     }
     SlamRun run = std::move(follower).finish();
     run.interrupted = stopped;
+    run.canGoOn = stopped && canGoOn;
     return run;
 }
 

@@ -19,6 +19,7 @@ struct SlamRun {
     std::size_t scansLost = 0;
     double seconds = 0.0;  ///< that it took [s]
     bool interrupted = false;
+    bool canGoOn = false;  ///< its state was saved where it was interrupted
 };
 
 /// Opens the recording of the options, with poses to be followed if it has some, and says

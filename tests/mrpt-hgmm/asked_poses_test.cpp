@@ -201,6 +201,9 @@ TEST(AskedPoses, ParticlesThatDoNotSearchHaveAWideKernelOfAllPoints) {
     std::vector<CHGMMOccupancyMap::Ptr> particles;
     for (int k = 0; k < 5; ++k) particles.push_back(copyThroughArchive(first));
     for (const auto& particle : particles) ask(*particle, *scanAt(1), {kProbe});
+    // Asking again about the same pose, or about none, is no search.
+    ask(*particles[3], *scanAt(1), {kProbe, kProbe});
+    ask(*particles[4], *scanAt(1), {CPose3D(std::nan(""), 0, 0, 0, 0, 0)});
     CHGMMOccupancyMap fixed = first;
     fixed.likelihoodOptions.kernelWidth_m = 0.2;
     const double expected = fixed.computeObservationLikelihood(*scanAt(0), kProbe);

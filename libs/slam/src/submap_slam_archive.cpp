@@ -30,6 +30,16 @@ void archiveSubmap(Archive& a, AnySubmap& submap) {
     throw FormatError(std::string(kind.name) + ": " + e.what());
 }
 
+/// Throws std::out_of_range for edges between nodes that are not there.
+void requireNodes(const std::vector<PoseEdge>& edges, std::size_t nodes) {
+    for (const PoseEdge& edge : edges) {
+        if (edge.from >= nodes || edge.to >= nodes)
+            throw std::out_of_range("an edge leads to no node");
+        if (edge.kind != PoseEdge::Kind::odometry && edge.kind != PoseEdge::Kind::closure)
+            throw std::out_of_range("an edge is of no kind");
+    }
+}
+
 SharedSubmap finishedFrom(const std::vector<std::uint8_t>& bytes) try {
     StateReader in(bytes.data(), bytes.size(), kSubmapState);
     Submap submap{MapParams{}};
@@ -74,6 +84,10 @@ void SubmapSlam::load(
     try {
         StateReader in(state.data(), state.size(), kSlamState);
         loaded->archive(in);
+        const std::size_t read = loaded->graph.T_world_node.size();
+        if (loaded->started != (read > 0)) throw std::out_of_range("it has no submap");
+        requireNodes(loaded->graph.edges, read);
+        requireNodes(loaded->pool.waiting(), read);
     } catch (const std::logic_error& e) {
         refuse(kSlamState, e);
     }

@@ -141,7 +141,13 @@ class StateReader {
     }
     template <typename T>
     std::enable_if_t<isPlain<T>> one(T& number) {
-        number = get_.get<T>();
+        if constexpr (std::is_same_v<T, bool>) {
+            const auto flag = get_.get<std::uint8_t>();
+            if (flag > 1) throw std::out_of_range("a flag is neither 0 nor 1");
+            number = flag == 1;
+        } else {
+            number = get_.get<T>();
+        }
     }
     template <typename T, int R, int C, int O>
     void one(Eigen::Matrix<T, R, C, O>& matrix) {

@@ -68,6 +68,10 @@ void Map::occupancy(const Eigen::Vector3d* points_map, std::size_t n, Occupancy*
         std::fill(answers, answers + n, Occupancy{});
         return;
     }
+    // In parts, so that memory does not follow n.
+    constexpr std::size_t kAtOnce = std::size_t{1} << 20U;
+    for (; n > kAtOnce; points_map += kAtOnce, answers += kAtOnce, n -= kAtOnce)
+        occupancy(points_map, kAtOnce, answers, level);
     const OccupancyModel& model = state_->cache.occupancy(level);
     std::vector<Eigen::Vector3d> points(n);
     std::vector<float> x(n), y(n), z(n);

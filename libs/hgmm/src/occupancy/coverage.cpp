@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::int32_t kInBlock = (1 << Coverage::kBlockShift) - 1;
 constexpr unsigned kAllCorners = 255;
+/// 1 - 2^-53: a share that rounding makes 1 is not that of all corners.
+constexpr double kNearlyOne = 0.99999999999999988898;
 
 /// Cells are at least this many spacings of rays wide, so that a sparse sensor leaves no
 /// gaps, but for its sake no wider than the gap that is bridged: things hide in wider ones.
@@ -149,7 +151,7 @@ T Coverage::shareAt(const T* x, int octave, LastGroup& last) const {
             weight = weight * ((k >> d & 1) != 0 ? upper[d] : 1.0 - upper[d]);
         share += weight;
     }
-    return share;
+    return valueOf(share) < 1.0 ? share : T(kNearlyOne);
 }
 
 template <typename T>

@@ -1,5 +1,7 @@
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -47,12 +49,14 @@ class FinestCell {
  public:
     FinestCell(const std::array<float, 3>& point, int octave)
         : point_(point), octave_(octave), cell_(BoxCells::cellOf(point, octave)) {
-        for (const std::int32_t c : cell_)
-            isBeyond_ |= c >= BoxCells::kLimit || c <= -BoxCells::kLimit;
+        // Where numbers of cells end, and where those of large cells would be denormal.
+        for (int d = 0; d < 3; ++d)
+            isSpecial_ |= std::abs(cell_[d]) >= BoxCells::kLimit ||
+                          (std::abs(point[d]) < 1e-20F && point[d] != 0);
     }
     /// BoxCells::cellOf(point, octave), octave >= the smallest.
     BoxCells::Cell at(int octave) const {
-        if (isBeyond_) return BoxCells::cellOf(point_, octave);
+        if (isSpecial_) return BoxCells::cellOf(point_, octave);
         const int doublings = octave - octave_;
         return {cell_[0] >> doublings, cell_[1] >> doublings, cell_[2] >> doublings};
     }
@@ -61,7 +65,7 @@ class FinestCell {
     const std::array<float, 3>& point_;
     int octave_;
     BoxCells::Cell cell_;
-    bool isBeyond_ = false;
+    bool isSpecial_ = false;
 };
 
 template <typename Block>
@@ -245,7 +249,7 @@ void OccupancyModel::Nearby::addFree(const double* x, const std::array<float, 3>
                }
            });
     std::uint32_t ids[kBlock];
-    alignas(32) float squared[kBlock], near[kBlock];
+    alignas(32) float squared[kBlock] = {}, near[kBlock] = {};
     int n = 0;
     for (const PackedCell<FreeBlock>& cell : freeCells_)
         for (std::size_t b = 0; b < cell.used; ++b) {

@@ -84,7 +84,8 @@ OccupancyModel::Joint OccupancyModel::jointOf(const Gaussian<4>& g) {
     return joint;
 }
 
-float OccupancyModel::sideOf(const OccupancyParams& params, const ViewDirection& view) {
+float OccupancyModel::sideReach_m(const OccupancyParams& params,
+                                  const ViewDirection& view) {
     return static_cast<float>(kSideCells * params.coverage.edgeAt(view.range_m));
 }
 
@@ -94,7 +95,7 @@ BoxCells::Box OccupancyModel::reachOf(const OccupancyParams& params,
     const auto reach_m = static_cast<float>(params.band.reach(view.range_m));
     const Eigen::Vector3d front = (view.known() ? reach_m : 0.F) * view.direction;
     const Eigen::Vector3d back =
-        (view.known() ? -sideOf(params, view) : 0.F) * view.direction;
+        (view.known() ? -sideReach_m(params, view) : 0.F) * view.direction;
     return boxAround(surface.mean + back, surface.mean + front, ellipsoidExtent(surface));
 }
 

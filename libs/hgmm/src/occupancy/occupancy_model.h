@@ -212,7 +212,7 @@ class OccupancyModel {
 
     static Joint jointOf(const Gaussian<4>& g);
     /// So far to each side a surface tells which side a point is on [m].
-    static float sideOf(const OccupancyParams& params, const ViewDirection& view);
+    static float sideReach_m(const OccupancyParams& params, const ViewDirection& view);
 
     OccupancyParams params_;
     const Surfaces surfaces_;

@@ -48,12 +48,12 @@ bool isInside(const BoxCells::Box& box, const float* point) {
 Eigen::Vector3d OccupancyModel::beyond(const OccupancyParams& params,
                                        const Gaussian<3>& surface,
                                        const ViewDirection& view) {
-    return surface.mean - kBeyond * double(sideOf(params, view)) * view.direction;
+    return surface.mean - kBeyond * double(sideReach_m(params, view)) * view.direction;
 }
 
 double OccupancyModel::coverageBeyond(std::uint32_t i) const {
     const ViewDirection view = surfaces_.views[i];
-    const double beyond_m = kBeyond * double(sideOf(params_, view));
+    const double beyond_m = kBeyond * double(sideReach_m(params_, view));
     double beyond[3];
     for (int d = 0; d < 3; ++d)
         beyond[d] = double(surfaces_.rows.mean[d][i]) - beyond_m * view.direction[d];
@@ -70,7 +70,7 @@ auto OccupancyModel::sideOf(std::uint32_t i, float viewPrecision, const T& heigh
     const T over = 1.0 - ramp(beside, kTileSigmas2, square(params_.extentSigmas));
     const T off = over * ramp(distance, tau, 2 * tau);
     if (!(valueOf(off) > 0)) return side;
-    const double end = sideOf(params_, surfaces_.views[i]);
+    const double end = sideReach_m(params_, surfaces_.views[i]);
     side.share = off * (1.0 - ramp(distance, 0.8 * end, end));
     return side;
 }

@@ -86,12 +86,10 @@ struct SurfaceLikelihood::Impl {
  private:
     /// A cache line.
     struct alignas(64) Patch {
-        static constexpr float kNoEnd = std::numeric_limits<float>::max();
-
         /// Coordinate d of the principal axes, the normal first, each over the standard
         /// deviation s along it; in lane 3 that of the mean [m].
         std::array<Float4, 3> axesAndMean{};
-        Float4 halfEdge{0.F, 0.F, 0.F, kNoEnd};  ///< along axes 0 to 2 [s]; none along 0
+        Float4 halfEdge{};  ///< along axes 0 to 2 [s]; none along 0; lane 3 is not used
 
         float mean(int d) const { return axesAndMean[d][3]; }
         float axis(int a, int d) const { return axesAndMean[d][a]; }
@@ -215,7 +213,6 @@ inline float SurfaceLikelihood::Impl::squaredDistance(const Patch& patch, float 
     const Float4 along = patch.axesAndMean[0] * (x - patch.mean(0)) +
                          patch.axesAndMean[1] * (y - patch.mean(1)) +
                          patch.axesAndMean[2] * (z - patch.mean(2));
-    // Lane 3 is before its end wherever the point is.
     const Float4 beyond = (along < 0.F ? -along : along) - patch.halfEdge;
     const Float4 positive = beyond < 0.F ? Float4{} : beyond;  // NaN stays
     const Float4 squared = positive * positive;

@@ -68,10 +68,16 @@ auto AskedPoses::before(const Asked& asked) const -> const Asked* {
 }
 
 LikelihoodKernel AskedPoses::kernelAfter(const Asked& before) {
+    // Squared angles are rounded.
+    constexpr double kSameAngle2 = 1e-4;
+    const auto isOnePose = [](const auto& of) {
+        const PoseSums& sums = of.second;
+        return sums.squaredDistances() == 0 &&
+               sums.squaredAngles() <= kSameAngle2 * double(sums.count());
+    };
     const bool noneSearches =
         before.byMap.size() > 1 &&
-        std::all_of(before.byMap.begin(), before.byMap.end(),
-                    [](const auto& of) { return of.second.count() == 1; });
+        std::all_of(before.byMap.begin(), before.byMap.end(), isOnePose);
     return noneSearches ? kernelWithoutSearch() : kernelFor(spreadOf(before));
 }
 
