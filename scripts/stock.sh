@@ -3,23 +3,22 @@
 # original. Where the program insists on a grid or points map, ours is added to it. Every option of
 # the map has its default.
 #   scripts/stock.sh [RUNS [CONFIGURATION...]]      default: 10 runs of each
-# CONFIGURATION: localisation or obsformat (localization_demo.ini, and the same of a log of
-# observations; their start box, for mode 0 needs a grid), optimal
-# (gridmapping_optimal_sampling.ini), plain (rbpf-slam as many set it up: standard proposal, 30
+# CONFIGURATION: localisation (localization_demo.ini; its start box, for mode 0 needs a grid),
+# optimal (gridmapping_optimal_sampling.ini), plain (rbpf-slam as many set it up: standard proposal, 30
 # particles, odometry), icp-points or icp-grid (gridmapping_RBPF_[grid_]ICPbased_malaga.ini, which
 # match scans with such a map), lm, classic or gridmatch (icp-slam_demo_*.ini; one run is all of
 # them). Right is, for localisation, within 0.15 m and 1.5 deg of the published pose; for the others,
 # within 0.15 m of the end that direct matching of scans gives. PLUGIN names another plugin, JOBS
 # how many run at a time, 1 if unset. Needs a build.
-# Not here: intel, malaga's vertical laser, three lasers and noses, whose logs MRPT does not come
-# with, and beacons, which our map does not observe.
+# Not here: localization_demo_obsonly_rawlog, intel, with_octomap, three lasers and noses, whose logs
+# MRPT does not come with, and beacons, which our map does not observe.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source scripts/runs.sh
 runs=${1:-10}
 configurations=("${@:2}")
 [[ ${#configurations[@]} -gt 0 ]] ||
-    configurations=(localisation obsformat optimal plain icp-points icp-grid lm classic gridmatch)
+    configurations=(localisation optimal plain icp-points icp-grid lm classic gridmatch)
 plugin=$(realpath "${PLUGIN:-build/lib/libmrpt-hgmm.so}")
 stock=/usr/share/mrpt/config_files
 out=$PWD/build/stock
@@ -34,7 +33,6 @@ quiet() { # FILE
         -e 's/^verbosity_level.*/verbosity_level=INFO/' -e 's/^init_PDF_mode=0/init_PDF_mode=1/' "$1" | tr -d '\r'
 }
 quiet $stock/pf-localization/localization_demo.ini >"$out/localisation-stock.ini"
-quiet $stock/pf-localization/localization_demo_obsonly_rawlog.ini >"$out/obsformat-stock.ini"
 quiet $stock/rbpf-slam/gridmapping_optimal_sampling.ini >"$out/optimal-stock.ini"
 quiet $stock/rbpf-slam/gridmapping_RBPF_ICPbased_malaga.ini >"$out/icp-points-stock.ini"
 quiet $stock/rbpf-slam/gridmapping_RBPF_grid_ICPbased_malaga.ini >"$out/icp-grid-stock.ini"
@@ -70,7 +68,7 @@ occupancyGrid_count=1
 [MappingApplication_occupancyGrid_00_creationOpts]
 resolution=0.06
 INI
-for configuration in localisation obsformat optimal plain; do
+for configuration in localisation optimal plain; do
     sed 's/^occupancyGrid_count=1.*/occupancyGrid_count=0\nhgmmMap_count=1/' \
         "$out/$configuration-stock.ini" >"$out/$configuration-hgmm.ini"
 done
@@ -85,7 +83,7 @@ run() { # CONFIGURATION MAP RUN
     mkdir "$folder"
     cd "$folder"
     case $1 in
-        localisation | obsformat) program=pf-localization end=15.89,-10.0,4.8 ;;
+        localisation) program=pf-localization end=15.89,-10.0,4.8 ;;
         lm | classic | gridmatch) program=icp-slam ;;
     esac
     # pf-localization seeds itself from the clock.
@@ -117,7 +115,7 @@ echo '| configuration | map | runs | right | median error | worst | median secon
 echo '| --- | --- | --- | --- | --- | --- | --- |'
 for configuration in "${configurations[@]}"; do
     degrees=360
-    case $configuration in localisation | obsformat) degrees=1.5 ;; esac
+    [[ $configuration != localisation ]] || degrees=1.5
     for map in hgmm stock; do
         of() { figures "$configuration-$map" 4 "$1"; }
         printf '| %s | %s | %d | %d | %.2f m, %.1f deg | %.2f m | %.1f |\n' "$configuration" "$map" \
