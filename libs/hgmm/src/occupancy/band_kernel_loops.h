@@ -5,7 +5,7 @@
 #include "occupancy/band_kernel.h"
 
 namespace hgmm::bands {
-namespace {
+namespace {  // NOLINT(cert-dcl59-cpp): local, as said above
 
 /// Eight lanes: vectors of GCC and Clang, in as many registers as they take.
 typedef float Float8 __attribute__((vector_size(32), may_alias));
