@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -57,7 +58,7 @@ class FinestCell {
     /// BoxCells::cellOf(point, octave), octave >= the smallest.
     BoxCells::Cell at(int octave) const {
         if (isSpecial_) return BoxCells::cellOf(point_, octave);
-        const int doublings = octave - octave_;
+        const int doublings = std::min(octave - octave_, 31);  // what is left is the sign
         return {cell_[0] >> doublings, cell_[1] >> doublings, cell_[2] >> doublings};
     }
 
