@@ -2,6 +2,9 @@
 //   build/bin/bench-hgmm
 #include <benchmark/benchmark.h>
 
+#include <random>
+#include <vector>
+
 #include "fusion/update.h"
 #include "hgmm/hierarchy.h"
 #include "hgmm/likelihood.h"
@@ -97,6 +100,30 @@ void logDensity(benchmark::State& state) {
     reportPerPoint(state, scan.size() / 10);
 }
 BENCHMARK(logDensity)->ArgName("rooms")->Arg(1)->Arg(100);
+
+/// Points evenly in the free space of the room, in one batch or one by one.
+void occupancy(benchmark::State& state) {
+    const hgmm::Map map = corridorOfRooms(1);
+    std::mt19937_64 engine(1);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    std::vector<Eigen::Vector3d> points(10000);
+    for (Eigen::Vector3d& p : points) {
+        const double x = unit(engine), y = unit(engine), z = unit(engine);
+        p = {8.0 * x - 4.0, 6.0 * y - 3.0, 2.5 * z};
+    }
+    std::vector<hgmm::Occupancy> answers(points.size());
+    map.occupancy(points[0]);
+    for (auto _ : state) {
+        if (state.range(0) == 1)
+            map.occupancy(points.data(), points.size(), answers.data());
+        else
+            for (std::size_t i = 0; i < points.size(); ++i)
+                answers[i] = map.occupancy(points[i]);
+        benchmark::DoNotOptimize(answers.data());
+    }
+    reportPerPoint(state, points.size());
+}
+BENCHMARK(occupancy)->ArgName("batch")->Arg(0)->Arg(1);
 
 /// The first answer of a copy, which prepares its index, and of a snapshot, which has it.
 void firstAnswer(benchmark::State& state) {

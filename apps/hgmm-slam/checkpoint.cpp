@@ -2,7 +2,6 @@
 
 #include <hgmm/mrpt_bridge/output_file.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -19,7 +18,6 @@ namespace hgmm::slam_app {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-using Given = std::vector<std::pair<std::string, std::string>>;
 
 // Layout: the magic, then blocks of a u64 length and its bytes: names and values of what
 // was given, each a block; SavedRun's numbers, and how many submaps are files; the mark of

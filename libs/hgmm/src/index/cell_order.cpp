@@ -1,6 +1,5 @@
 #include "index/cell_order.h"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -46,8 +45,8 @@ void sortByDigits(std::vector<CellKey>& keys) {
 
 }  // namespace
 
-CellOrder orderedByCells(const float* x, const float* y, const float* z, std::size_t n,
-                         int octave) {
+std::vector<std::uint32_t> orderOfCells(const float* x, const float* y, const float* z,
+                                        std::size_t n, int octave) {
     std::vector<CellKey> keys(n);
     for (std::size_t i = 0; i < n; ++i) {
         const LatticeCell cell = LatticeCell::at({x[i], y[i], z[i]}, octave);
@@ -55,16 +54,24 @@ CellOrder orderedByCells(const float* x, const float* y, const float* z, std::si
                    static_cast<std::uint32_t>(i)};
     }
     sortByDigits(keys);
+    std::vector<std::uint32_t> index;
+    index.reserve(n);
+    for (const CellKey& k : keys) index.push_back(k.index);
+    return index;
+}
+
+CellOrder orderedByCells(const float* x, const float* y, const float* z, std::size_t n,
+                         int octave) {
     CellOrder order;
-    order.index.reserve(n);
-    for (std::vector<float>* axis : {&order.x, &order.y, &order.z}) axis->reserve(n + 3);
-    for (const CellKey& k : keys) {
-        order.index.push_back(k.index);
-        order.x.push_back(x[k.index]);
-        order.y.push_back(y[k.index]);
-        order.z.push_back(z[k.index]);
-    }
-    for (std::vector<float>* axis : {&order.x, &order.y, &order.z}) axis->resize(n + 3);
+    order.index = orderOfCells(x, y, z, n, octave);
+    const auto ordered = [&](const float* from, std::vector<float>& axis) {
+        axis.reserve(n + 3);
+        for (const std::uint32_t i : order.index) axis.push_back(from[i]);
+        axis.resize(n + 3);
+    };
+    ordered(x, order.x);
+    ordered(y, order.y);
+    ordered(z, order.z);
     return order;
 }
 

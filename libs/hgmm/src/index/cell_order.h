@@ -14,6 +14,10 @@ struct CellOrder {
     std::size_t size() const { return index.size(); }
 };
 
+/// The points of a CellOrder, without their coordinates.
+std::vector<std::uint32_t> orderOfCells(const float* x, const float* y, const float* z,
+                                        std::size_t n, int octave);
+
 /// Sorts points along Morton's curve through the cells of an octave. Points of one cell
 /// keep their order. The order matters for speed alone.
 /// @param x, y, z n coordinates each [m]

@@ -81,10 +81,10 @@ void Map::occupancy(const Eigen::Vector3d* points_map, std::size_t n, Occupancy*
         y[i] = static_cast<float>(points[i].y());
         z[i] = static_cast<float>(points[i].z());
     }
-    const CellOrder order =
-        orderedByCells(x.data(), y.data(), z.data(), n, model.smallestOctave());
+    const std::vector<std::uint32_t> order =
+        orderOfCells(x.data(), y.data(), z.data(), n, model.smallestOctave());
     forEachChunk(n, [&](std::size_t begin, std::size_t end) {
-        model.at(points.data(), order.index.data() + begin, end - begin, answers);
+        model.at(points.data(), order.data() + begin, end - begin, answers);
     });
 }
 
